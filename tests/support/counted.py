@@ -1,0 +1,15 @@
+"""Runs unittest cases and ends with the line that tests/run reads: `N passed, N failed, N skipped`."""
+
+import sys
+import unittest
+
+
+def run(suite, verbosity=1):
+    """Runs the suite, prints the totals, returns the exit status."""
+    result = unittest.TextTestRunner(stream=sys.stdout, verbosity=verbosity).run(suite)
+    failed = len(result.failures) + len(result.errors) + len(result.unexpectedSuccesses)
+    passed = result.testsRun - failed - len(result.skipped)
+    for case, reason in result.skipped:
+        print(f"skipped: {case}: {reason}")
+    print(f"{max(passed, 0)} passed, {failed} failed, {len(result.skipped)} skipped")
+    return 1 if failed else 0
