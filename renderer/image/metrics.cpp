@@ -1,0 +1,124 @@
+#include "image/metrics.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include "image/flip.h"
+
+namespace midway {
+namespace {
+
+std::string size_text(const Image& image) {
+    return std::to_string(image.width) + " x " + std::to_string(image.height);
+}
+
+void check_size(const Image& image, const Image& reference, const std::string& name) {
+    if (image.width != reference.width || image.height != reference.height ||
+        image.pixels.size() != reference.pixels.size())
+        throw std::runtime_error("cannot compare images: sizes differ (" + name + " " +
+                                 size_text(image) + ", reference " + size_text(reference) +
+                                 "); give images of one size");
+}
+
+void check_finite(const Image& image, size_t index, const std::string& name) {
+    if (is_finite(image.pixels[index])) return;
+    const size_t width = static_cast<size_t>(image.width);
+    throw std::runtime_error("cannot compare images: a pixel is not finite (" + name + ", pixel " +
+                             std::to_string(index % width) + "," + std::to_string(index / width) +
+                             "); render it again or leave the pixel out by a mask");
+}
+
+// Indices of the pixels that count, all of them finite.
+std::vector<size_t> counted_pixels(const Image& test, const Image& reference,
+                                   const DiffOptions& options) {
+    check_size(test, reference, "image");
+    if (options.mask) check_size(*options.mask, reference, "mask");
+    if (options.epsilon && !(*options.epsilon >= 0 && std::isfinite(*options.epsilon)))
+        throw std::runtime_error("cannot compare images: wrong epsilon (" +
+                                 std::to_string(*options.epsilon) +
+                                 "); give a finite number that is not negative");
+    std::vector<size_t> counted;
+    for (size_t i = 0; i < reference.pixels.size(); ++i) {
+        if (options.mask) {
+            check_finite(*options.mask, i, "mask");
+            if (is_black(options.mask->pixels[i])) continue;
+        }
+        check_finite(test, i, "image");
+        check_finite(reference, i, "reference");
+        counted.push_back(i);
+    }
+    if (counted.empty())
+        throw std::runtime_error("cannot compare images: no pixel counts (" + size_text(reference) +
+                                 "); give images with pixels and a mask that is not all black");
+    return counted;
+}
+
+double quotient(double numerator, double denominator) {
+    return numerator == 0 ? 0 : numerator / denominator;
+}
+
+double mean_luminance(const Image& image, const std::vector<size_t>& counted) {
+    double sum = 0;
+    for (size_t i : counted) sum += luminance(dvec3(image.pixels[i]));
+    return sum / static_cast<double>(counted.size());
+}
+
+// Mean of all but the largest 0.1 %. Of values equal to the smallest one left out it does not
+// matter which go, so the sum can run in the given order.
+double trimmed_mean(const std::vector<double>& values) {
+    const size_t kept = values.size() - values.size() / 1000;
+    std::vector<double> sorted = values;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(kept - 1),
+                     sorted.end());
+    const double largest_kept = sorted[kept - 1];
+    double sum = 0;
+    size_t below = 0;
+    for (double v : values) {
+        if (!(v < largest_kept)) continue;
+        sum += v;
+        ++below;
+    }
+    if (kept > below) sum += static_cast<double>(kept - below) * largest_kept;
+    return sum / static_cast<double>(kept);
+}
+
+}  // namespace
+
+ImageError compare_images(const Image& test, const Image& reference, const DiffOptions& options) {
+    const std::vector<size_t> counted = counted_pixels(test, reference, options);
+    const double count = static_cast<double>(counted.size());
+    const double test_mean = mean_luminance(test, counted);
+    const double reference_mean = mean_luminance(reference, counted);
+    const double epsilon = options.epsilon.value_or(0.01 * sqr(reference_mean));
+
+    ImageError error;
+    std::vector<double> relative;
+    relative.reserve(counted.size());
+    double relative_sum = 0;
+    for (size_t i : counted) {
+        double pixel = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double x = test.pixels[i][c], r = reference.pixels[i][c];
+            const double square = sqr(x - r);
+            error.mse += square;
+            pixel += quotient(square, r * r + epsilon);
+            error.smape += quotient(std::abs(x - r), std::abs(x) + std::abs(r));
+        }
+        relative.push_back(pixel / 3);
+        relative_sum += pixel / 3;
+    }
+    error.mse /= 3 * count;
+    error.rmse = std::sqrt(error.mse);
+    error.smape /= 3 * count;
+    error.relmse = relative_sum / count;
+    error.relmse_trimmed = trimmed_mean(relative);
+    if (test_mean != 0 || reference_mean != 0) error.mean_ratio = test_mean / reference_mean;
+    if (options.flip) {
+        const std::vector<float> map = flip_map(test, reference);
+        for (size_t i : counted) error.flip += map[i];
+        error.flip /= count;
+    }
+    return error;
+}
+
+}  // namespace midway
