@@ -1,0 +1,73 @@
+"""`midway info` and `midway diff`: JSON for programs, text for people, and the published formulas."""
+
+import json
+import math
+
+from exr_file import ExrFile
+from harness import CliTest
+
+DIFF_KEYS = {"mse", "rmse", "relmse", "relmse_trimmed", "smape", "flip", "mean_ratio"}
+
+
+class Info(CliTest):
+    def test_speaks_json(self):
+        told = json.loads(self.run_midway("info", self.scene, "--json").stdout)
+        self.assertIsInstance(told, dict)
+        self.assertTrue(told)
+
+    def test_tells_people_what_is_in_the_scene(self):
+        text = self.run_midway("info", self.scene).stdout
+        for word in ["eye", "bulb"]:
+            self.assertIn(word, text)
+
+
+class Diff(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.a = self.render_exr("a", "--spp", 2)
+        self.b = self.render_exr("b", "--spp", 3, "--seed", 6)
+
+    def diff(self, *arguments, **options):
+        return json.loads(self.run_midway("diff", *arguments, "--json", **options).stdout)
+
+    def test_finds_no_difference_of_an_image_from_itself(self):
+        told = self.diff(self.a, self.a)
+        self.assertEqual(DIFF_KEYS, DIFF_KEYS & told.keys())
+        for key in DIFF_KEYS - {"mean_ratio"}:
+            self.assertEqual(0, told[key], key)
+        self.assertEqual(1, told["mean_ratio"])
+
+    def test_computes_the_published_formulas(self):
+        told = self.diff(self.a, self.b)
+        planes = [ExrFile(path).pixels() for path in (self.a, self.b)]
+        x, r = ([value for channel in "RGB" for row in plane[channel] for value in row]
+                for plane in planes)
+        n = len(x)
+        luminance = 3 / n * sum(weight * value for weight, channel in
+                                zip((0.2126, 0.7152, 0.0722), "RGB")
+                                for row in planes[1][channel] for value in row)
+        square = [(p - q) ** 2 for p, q in zip(x, r)]
+        mse = sum(square) / n
+        relmse = sum(e / (q * q + 0.01 * luminance ** 2) for e, q in zip(square, r)) / n
+        self.assertAlmostEqual(1, told["mse"] / mse, places=4)
+        self.assertAlmostEqual(1, told["rmse"] / math.sqrt(mse), places=4)
+        self.assertAlmostEqual(1, told["relmse"] / relmse, places=3)
+        self.assertLessEqual(told["relmse_trimmed"], told["relmse"])
+
+    def test_has_a_bar(self):
+        relmse = self.diff(self.a, self.b)["relmse"]
+        self.assertGreater(relmse, 0)
+        self.run_midway("diff", self.a, self.b, "--max-relmse", relmse * 1.01)
+        self.run_midway("diff", self.a, self.b, "--max-relmse", relmse * 0.99, status=1)
+
+    def test_prints_text_without_json(self):
+        self.assertIn("relmse", self.run_midway("diff", self.a, self.b).stdout.lower())
+
+    def test_refuses_what_cannot_be_compared(self):
+        small = self.render_exr("small", "--spp", 1, size="8x8")
+        self.refused("diff", self.a, small, status=1)
+        self.refused("diff", self.a, self.out / "nowhere.exr", status=1)
+        broken = self.out / "broken.exr"
+        broken.write_bytes(self.a.read_bytes()[:100])
+        self.refused("diff", self.a, broken, status=1)
+        self.refused("diff", self.a, status=2)
