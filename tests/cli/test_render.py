@@ -68,6 +68,7 @@ class Files(CliTest):
 class Output(CliTest):
     def test_progress_goes_to_stderr_and_quiet_is_quiet(self):
         self.assertEqual("", self.render("--spp", 2, "-o", self.out / "a.exr", "--quiet").stderr)
+        self.assert_files("a.exr")
         done = self.render("--spp", 2, "-o", self.out / "a.exr")
         self.assertNotIn("\r", done.stderr, "a bar is for terminals only")
         self.assertNotIn("\x1b", done.stderr)

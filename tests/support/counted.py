@@ -7,7 +7,9 @@ import unittest
 def run(suite, verbosity=1):
     """Runs the suite, prints the totals, returns the exit status."""
     result = unittest.TextTestRunner(stream=sys.stdout, verbosity=verbosity).run(suite)
-    failed = len(result.failures) + len(result.errors) + len(result.unexpectedSuccesses)
+    # A case whose sub-tests fail is one failure.
+    broken = [case for case, _ in result.failures + result.errors] + result.unexpectedSuccesses
+    failed = len({getattr(case, "test_case", case).id() for case in broken})
     passed = result.testsRun - failed - len(result.skipped)
     for case, reason in result.skipped:
         print(f"skipped: {case}: {reason}")
