@@ -89,6 +89,15 @@ TEST(ChiSquare, PoolsSmallCells) {
     EXPECT_DOUBLE_EQ(result.statistic, 1.0 / 5 + 16.0 / 49 + 9.0 / 47);
 }
 
+TEST(ChiSquare, LosesNoCellThatFillsNoPool) {
+    const std::vector<double> observed = {4, 3, 2, 5, 10};
+    const std::vector<double> expected = {3, 3, 3, 3, 3};
+    // Pools of 6 and 6; the last 3 join the second.
+    const ChiSquare result = chi_square_test(observed, expected);
+    EXPECT_EQ(result.degrees_of_freedom, 1);
+    EXPECT_DOUBLE_EQ(result.statistic, 1.0 / 6 + 64.0 / 9);
+}
+
 TEST(ChiSquare, CountsTheImpossible) {
     const std::vector<double> observed = {2, 49, 49};
     const std::vector<double> expected = {0, 50, 50};
