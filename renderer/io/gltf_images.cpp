@@ -38,7 +38,8 @@ std::shared_ptr<TextureImage> decode(const Bytes& bytes, std::int64_t& texels_le
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(bytes.data(), size, &width, &height, &channels)) {
-        throw std::runtime_error("neither PNG nor JPEG");
+        throw std::runtime_error(std::string("not a PNG or JPEG that can be read: ") +
+                                 stbi_failure_reason());
     }
     const std::int64_t texels = std::int64_t{width} * height;
     if (texels <= 0 || texels > max_image_texels) throw std::runtime_error("more than 2^26 texels");
