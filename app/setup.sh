@@ -68,8 +68,9 @@ build_preset() {
     if ! (cd "$midway_root" && cmake --preset "$preset" "${generator[@]}" &&
         cmake --build "$directory" --parallel "${MIDWAY_JOBS:-$(nproc)}" "${targets[@]}") \
         >"$log" 2>&1; then
-        grep -E -A4 'error|Error|FAILED' "$log" | head -n 60 >&2
-        tail -n 20 "$log" >&2
+        # The compiler's first messages, or else what was said last.
+        { grep -E -A6 'error:|CMake Error|undefined reference' "$log" || tail -n 20 "$log"; } |
+            head -n 60 >&2
         say_error "the $preset build failed ($log); the first error stands above"
         return 1
     fi

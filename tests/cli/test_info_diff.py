@@ -17,7 +17,7 @@ class Info(CliTest):
 
     def test_tells_people_what_is_in_the_scene(self):
         text = self.run_midway("info", self.scene).stdout
-        for word in ["eye", "bulb"]:
+        for word in ["eye", "point"]:
             self.assertIn(word, text)
 
 
