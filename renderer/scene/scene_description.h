@@ -60,8 +60,8 @@ struct CameraDescription {
     dmat4 to_world{1.0};
 };
 
-// Light from infinitely far: an equirectangular map, or one colour where `map` is empty. Column 0 of
-// the map is direction -x turning by +z (u = 1/2 looks along -z, v = 0 is +y).
+// Light from infinitely far: an equirectangular map, or one colour where `map` is empty. The middle of
+// the map looks along -z, a quarter to the right of it is +x, the top row is +y.
 struct SkyDescription {
     std::string source;  // file name, or "colour", or "default"
     std::shared_ptr<const Image> map;

@@ -1,0 +1,201 @@
+// midway render: from a scene to image files.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <ctime>
+
+#include "commands.h"
+#include "outputs.h"
+#include "progress.h"
+#include "render/coverage.h"
+#include "render/debug_sample.h"
+#include "render/waves.h"
+
+namespace midway {
+namespace {
+
+// Set by Ctrl-C; the render then ends at the last whole pass.
+volatile std::sig_atomic_t interrupted = 0;
+
+struct RenderCommand {
+    SceneOptions scene;
+    RenderSettings settings;
+    RendererOptions renderer;
+    OutputOptions outputs;
+    std::optional<std::uint64_t> spp;
+    std::optional<double> seconds;
+    std::string technique = "bdpt", sampler = "sobol", filter = "blackman-harris", size = "512x512";
+    std::optional<std::string> families;
+    std::vector<double> exponents;
+    std::vector<int> crop;
+    std::vector<std::string> only;
+    std::vector<std::uint64_t> debug_pixel;
+    int layer_edges = 8;
+    bool quiet = false;
+};
+
+// A value that does not parse is wrong usage (exit 2), like an unknown option.
+[[noreturn]] void usage(const std::string& message) { throw CLI::ValidationError(message); }
+
+void parse_size(const std::string& text, RenderSettings& s) {
+    int n = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &s.width, &s.height, &n) != 2 ||
+        static_cast<size_t>(n) != text.size())
+        usage("--size: \"" + text + "\" is not WxH");
+}
+
+Strategy parse_strategy(const std::string& text) {
+    Strategy k;
+    int n = 0;
+    const bool read = std::sscanf(text.c_str(), "%d,%d%n", &k.s, &k.t, &n) == 2;
+    if (!read || static_cast<size_t>(n) != text.size() || k.s < 1 || k.t < 0 || k.s + k.t < 2)
+        usage("--only: \"" + text + "\" is not a strategy S,T");
+    return k;
+}
+
+// Turns the words of the command line into settings.
+void finish_settings(RenderCommand& c) {
+    RenderSettings& s = c.settings;
+    const size_t colon = c.technique.find(':');
+    try {
+        s.technique = parse_technique(c.technique.substr(0, colon));
+        if (colon != std::string::npos) s.exponents = {std::stod(c.technique.substr(colon + 1))};
+        if (!c.exponents.empty()) s.exponents = c.exponents;
+        s.sampler = parse_sampler(c.sampler);
+        s.filter = parse_filter(c.filter);
+        if (c.families) s.families = parse_families(*c.families);
+    } catch (const std::logic_error&) {
+        usage("--technique: \"" + c.technique + "\" has no number after the colon");
+    } catch (const std::runtime_error& e) {
+        usage(e.what());
+    }
+    parse_size(c.size, s);
+    if (c.crop.size() == 4) s.crop = PixelRect{c.crop[0], c.crop[1], c.crop[2], c.crop[3]};
+    for (const std::string& text : c.only) s.only.push_back(parse_strategy(text));
+    if (c.outputs.strategies) c.renderer.layer_edges = c.layer_edges;
+    c.renderer.statistics = c.outputs.stats.has_value();
+}
+
+void print_sample(const Estimator& e, const DebugSample& d) {
+    fmt::print("pixel {},{} sample {} light subpath {}\n", d.x, d.y, d.pass, d.light_subpath);
+    for (const DebugContribution& c : d.contributions) {
+        const Contribution& k = c.contribution;
+        fmt::print("  {} value {:.9g} {:.9g} {:.9g}", describe(k.strategy), k.value.x, k.value.y,
+                   k.value.z);
+        for (int i = 0; i < e.exponent_count; ++i)
+            fmt::print("  weight({:g}) {:.9g}", e.exponents[i], k.weights[i]);
+        if (c.splat) fmt::print("  splat to {},{}", c.x, c.y);
+        fmt::print("\n");
+    }
+}
+
+int debug(const RenderCommand& c, const PreparedScene& p) {
+    const Estimator e = make_estimator(*p.scene, p.camera, c.settings);
+    const auto x = static_cast<int>(c.debug_pixel[0]), y = static_cast<int>(c.debug_pixel[1]);
+    if (!e.crop.contains(x, y))
+        throw std::runtime_error(
+            fmt::format("pixel outside of the image ({},{}); the image is {}x{}", x, y,
+                        c.settings.width, c.settings.height));
+    print_sample(e, replay_sample(e, x, y, c.debug_pixel[2]));
+    return exit_done;
+}
+
+void warn_of_gaps(const ProgressiveRenderer& r, const PreparedScene& p, Technique technique) {
+    const Estimator& e = r.estimator();
+    for (const std::string& what :
+         not_covered(scene_features(*p.scene), e.families, e.direct_lamps))
+        print_warnings({fmt::format("{} does not cover: {}", to_string(technique), what)});
+}
+
+RunFigures render_all(const RenderCommand& c, ProgressiveRenderer& r) {
+    Progress progress(c.quiet);
+    const std::clock_t cpu = std::clock();
+    WaveLimits limits;
+    limits.passes = c.spp;
+    limits.seconds = c.seconds;
+    if (!c.spp && !c.seconds) limits.passes = 128;
+    const double seconds = render_in_waves(r, limits, [] { return interrupted != 0; },
+                                           [&](const WaveState& w) {
+                                               const RayCounts n = r.statistics().rays;
+                                               progress.update({w.done, w.passes, n.closest + n.shadow});
+                                           });
+    RunFigures figures;
+    figures.seconds_render = seconds;
+    figures.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
+    figures.interrupted = interrupted != 0;
+    return figures;
+}
+
+int run(RenderCommand& c) {
+    if (c.outputs.images.empty() && c.debug_pixel.empty())
+        usage("-o: name at least one output (.exr, .png or .film)");
+    finish_settings(c);
+    check_outputs(c.outputs);
+    const PreparedScene p = prepare_scene(c.scene);
+    if (!c.quiet) print_warnings(p.warnings);
+    if (!c.debug_pixel.empty()) return debug(c, p);
+    ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
+    if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
+    std::signal(SIGINT, [](int) { interrupted = 1; });
+    const RunFigures figures = render_all(c, r);
+    write_outputs(c.outputs, p, c.settings, r, figures);
+
+    const RenderStatistics s = r.statistics();
+    if (s.clamped > 0) print_warnings({fmt::format("{} contributions were clamped", s.clamped)});
+    if (s.fixed.overflow > 0)
+        print_warnings({fmt::format("{} contributions overflowed the film", s.fixed.overflow)});
+    if (s.nonfinite.count > 0)
+        print_warnings({fmt::format("{} samples were not finite; see --debug-pixel {},{},{}",
+                                    s.nonfinite.count, s.nonfinite.x, s.nonfinite.y,
+                                    s.nonfinite.pass)});
+    if (figures.interrupted) return exit_interrupted;
+    return s.nonfinite.count > 0 || s.fixed.overflow > 0 ? exit_nonfinite : exit_done;
+}
+
+void add_image_options(CLI::App& sub, RenderCommand& c) {
+    sub.add_option("-o,--output", c.outputs.images, "Image: .exr, .png or .film (repeatable)");
+    sub.add_option("--size", c.size, "Image size WxH")->capture_default_str();
+    sub.add_option("--crop", c.crop, "X0,Y0,X1,Y1")->delimiter(',')->expected(4);
+    sub.add_option("--filter", c.filter, "box, gaussian or blackman-harris")->capture_default_str();
+    sub.add_option("--exposure", c.outputs.exposure, "EV of PNG files, or auto");
+    sub.add_option("--aov", c.outputs.aov, "EXR with albedo, normal, depth, object, variance");
+    sub.add_option("--strategies", c.outputs.strategies, "EXR with a layer for every strategy");
+    sub.add_option("--strategies-length", c.layer_edges, "Longest path in --strategies, edges")
+        ->check(CLI::Range(1, 64));
+    sub.add_option("--stats", c.outputs.stats, "Statistics as JSON");
+    sub.add_option("--debug-pixel", c.debug_pixel, "X,Y,SAMPLE: print one sample")
+        ->delimiter(',')
+        ->expected(3);
+}
+
+}  // namespace
+
+Command add_render_command(CLI::App& app) {
+    auto c = std::make_shared<RenderCommand>();
+    CLI::App& sub = *app.add_subcommand("render", "Render a scene to image files");
+    add_scene_options(sub, c->scene);
+    add_image_options(sub, *c);
+    sub.add_option("--technique", c->technique, "path, light, bdpt or bdpt:EXPONENT")
+        ->capture_default_str();
+    sub.add_option("--exponent", c->exponents, "Exponent of the MIS weights; a list: same paths")
+        ->delimiter(',');
+    sub.add_option("--spp", c->spp, "Samples per pixel")->check(CLI::PositiveNumber);
+    sub.add_option("--time", c->seconds, "Seconds of rendering")->check(CLI::PositiveNumber);
+    sub.add_option("--max-bounces", c->settings.max_bounces, "Longest path, scattering events")
+        ->capture_default_str();
+    sub.add_option("--seed", c->settings.seed, "Seed of the random numbers");
+    sub.add_option("--threads", c->renderer.threads, "Threads; 0: all processors")
+        ->check(CLI::Range(0, 1024));
+    sub.add_option("--sampler", c->sampler, "sobol or independent")->capture_default_str();
+    sub.add_option("--clamp", c->settings.clamp, "Largest component of a contribution (biased)")
+        ->check(CLI::PositiveNumber);
+    sub.add_option("--families", c->families, "Of emitter,next-event,light,connect");
+    sub.add_option("--only", c->only, "S,T: record this strategy alone (repeatable)")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    sub.add_flag("--unweighted", c->settings.unweighted, "Record bare estimates");
+    sub.add_flag("--quiet", c->quiet, "No progress, no warnings");
+    return [c] { return run(*c); };
+}
+
+}  // namespace midway

@@ -1,0 +1,73 @@
+// The film: exact sums of contributions. Every value is a 128-bit integer in units of 2^-90 of a power
+// of two near the scene's emitted power, so sums do not depend on their order: not on threads, nor on
+// being split over runs or machines. Float contributions are held exactly over some 30 decades; what
+// loses bits below or does not fit above is counted. Even passes go to half A, odd ones to half B.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "image/image.h"
+
+namespace midway {
+
+__extension__ typedef __int128 Int128;
+__extension__ typedef unsigned __int128 UInt128;
+using FixedRgb = std::array<Int128, 3>;
+
+// The power of two that one unit of a film stands for; `power` is the scene's (0: any).
+int film_unit_exponent(double power);
+
+struct FixedCounts {
+    std::uint64_t inexact = 0;   // bits below the unit were rounded
+    std::uint64_t overflow = 0;  // did not fit and was not added
+};
+
+// v in units of 2^unit_exponent, rounded to nearest. v is finite.
+Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts);
+double from_fixed(Int128 v, int unit_exponent);
+
+class Film {
+  public:
+    Film(int width, int height, int unit_exponent);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int unit_exponent() const { return unit_exponent_; }
+
+    // Safe from many threads at once.
+    void add(int half, int x, int y, const FixedRgb& value);
+
+    // The sums of one half of a pixel; call when nobody adds.
+    FixedRgb sum(int half, int x, int y) const;
+
+    void merge(const Film& other);
+
+    // Raw words for a file: for every pixel, half and channel the low and the high 64 bits.
+    const std::vector<std::uint64_t>& words() const { return words_; }
+    std::vector<std::uint64_t>& words() { return words_; }
+
+  private:
+    size_t place(int half, int x, int y) const {
+        return ((static_cast<size_t>(y) * width_ + x) * 2 + half) * 6;
+    }
+    int width_, height_, unit_exponent_;
+    std::vector<std::uint64_t> words_;
+};
+
+// How many passes each half holds: passes [0, n) put (n + 1) / 2 into A.
+struct PassCounts {
+    std::uint64_t a = 0, b = 0;
+    std::uint64_t total() const { return a + b; }
+};
+PassCounts pass_counts(std::uint64_t first, std::uint64_t end);
+
+// The mean of all passes.
+Image resolve(const Film& film, const PassCounts& passes);
+
+// Estimated variance of resolve()'s pixels: a quarter of the squared difference of the halves' means.
+Image resolve_variance(const Film& film, const PassCounts& passes);
+
+}  // namespace midway

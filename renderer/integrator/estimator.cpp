@@ -1,0 +1,148 @@
+#include "integrator/estimator.h"
+
+namespace midway {
+namespace {
+
+bool no_weight(const Estimator& e, const Contribution& c) {
+    for (int i = 0; i < e.exponent_count; ++i)
+        if (c.weights[i] > 0) return false;
+    return true;
+}
+
+vec3 leave(const PathVertex& v, const vec3& towards) {
+    return offset_origin(v.position, v.ng, v.error, towards);
+}
+
+// The strategy that moves the connecting edge one step towards the camera (or the light) is
+// feasible if its family is in use; vertices and lights that forbid it have zero sums.
+bool towards_camera(const Estimator& e, const Strategy& k) { return e.has({k.s - 1, k.t + 1}); }
+bool towards_light(const Estimator& e, const Strategy& k) { return e.has({k.s + 1, k.t - 1}); }
+
+}  // namespace
+
+std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached reached) {
+    if (reached == Reached::nothing) return {};
+    const Strategy k{w.index + 1, 0};
+    if (!e.families.emitter_hit && !(k.s == 2 && e.direct_lamps)) return {};
+    const std::optional<EmitterHit> hit =
+        reached == Reached::sky ? sky_hit(*e.scene, w.ray.direction)
+                                : emitter_hit(*e.scene, w.point, w.vertex.to_previous);
+    if (!hit) return {};
+    Contribution c;
+    c.strategy = k;
+    c.value = w.throughput * hit->radiance;
+    // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
+    const mis::EmitterHitPdfs pdfs{hit->pdfs.origin, hit->pdfs.leave, hit->pdfs.next_event,
+                                   k.s > 2 && e.has({k.s - 1, 1})};
+    fill_weights(e, c, [&](const auto& h, int i) {
+        return k.s == 2 ? 1.0 : mis::emitter_hit(h, w.mis[i], pdfs);
+    });
+    return c;
+}
+
+std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& v,
+                                             const SampleKey& key, RayCounts& rays) {
+    const vec4 u = sample_4d(key, connect_group(v.index));
+    const std::optional<NextEventSample> n = sample_next_event(*e.scene, v.position, vec3(u));
+    if (!n) return {};
+    const BsdfEval f = eval_bsdf(v.bsdf, v.to_previous, n->direction, Transport::radiance);
+    if (is_black(f.f)) return {};
+    const LightKind kind = e.scene->lights[n->light].kind;
+    const double cos_v = abs_dot(v.ng, n->direction);
+    Contribution c;
+    c.strategy = {v.index + 1, 1};
+    c.value = v.throughput * f.f * n->value * static_cast<float>(cos_v);
+
+    const double g_light = n->cos_theta / double(n->distance_squared);  // 1 at infinity
+    const mis::Side side{n->pdfs.leave * cos_v / n->distance_squared, f.pdf_rev_w,
+                         towards_camera(e, c.strategy)};
+    const mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light,
+                                  !is_delta(kind) && e.families.emitter_hit};
+    fill_weights(e, c, [&](const auto& h, int i) {
+        return mis::next_event(h, v.mis[i], side, pdfs);
+    });
+    if (is_black(c.value) || no_weight(e, c)) return {};
+
+    rays.count_shadow(c.strategy);
+    const vec3 from = leave(v, n->direction);
+    const float seen =
+        is_infinite(kind)
+            ? visibility_to_infinity(*e.scene, from, n->direction)
+            : visibility(*e.scene, from,
+                         offset_origin(n->target, n->normal, n->error, -n->direction));
+    if (seen == 0) return {};
+    c.value *= seen;
+    return c;
+}
+
+std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, const PathVertex& l,
+                                    RayCounts& rays) {
+    const vec3 d = l.position - v.position;
+    const double distance2 = length_squared(d);
+    if (!(distance2 > 0)) return {};
+    const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
+    const BsdfEval fv = eval_bsdf(v.bsdf, v.to_previous, direction, Transport::radiance);
+    if (is_black(fv.f)) return {};
+    const BsdfEval fl = eval_bsdf(l.bsdf, l.to_previous, -direction, Transport::importance);
+    if (is_black(fl.f)) return {};
+    const double g_v = abs_dot(v.ng, direction) / distance2;
+    const double g_l = abs_dot(l.ng, direction) / distance2;
+    Contribution c;
+    c.strategy = {v.index + 1, l.index + 1};
+    c.value = v.throughput * fv.f * fl.f * l.throughput * static_cast<float>(g_v * g_l * distance2);
+    if (is_black(c.value)) return {};
+
+    const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w, towards_camera(e, c.strategy)};
+    const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w, towards_light(e, c.strategy)};
+    fill_weights(e, c, [&](const auto& h, int i) {
+        return mis::connection(h, v.mis[i], camera, l.mis[i], light);
+    });
+    if (no_weight(e, c)) return {};
+
+    rays.count_shadow(c.strategy);
+    const float seen = visibility(*e.scene, leave(v, direction), leave(l, -direction));
+    if (seen == 0) return {};
+    c.value *= seen;
+    return c;
+}
+
+std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l,
+                                       const SampleKey& key, RayCounts& rays) {
+    const vec4 u = sample_4d(key, connect_group(l.index));
+    const vec3 lens = lens_point(e.camera, {u.x, u.y});
+    const vec3 d = lens - l.position;
+    const double distance2 = length_squared(d);
+    if (!(distance2 > 0)) return {};
+    const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
+    const std::optional<vec2> film = film_position(e.camera, lens, -direction);
+    if (!film) return {};
+    const SplatPixel pixel = choose_splat_pixel(e.filter, *film, {u.z, u.w});
+    if (!(pixel.factor > 0) || !e.crop.contains(pixel.x, pixel.y)) return {};
+    const BsdfEval f = eval_bsdf(l.bsdf, l.to_previous, direction, Transport::importance);
+    if (is_black(f.f)) return {};
+    const double cos_l = abs_dot(l.ng, direction);
+    // Density per area at the vertex of one camera sample per pixel area: also the importance.
+    const double pdf_a = camera_pdf_w(e.camera, -glm::dot(direction, e.camera.forward)) * cos_l /
+                         distance2;
+    Splat s;
+    s.x = pixel.x;
+    s.y = pixel.y;
+    Contribution& c = s.contribution;
+    c.strategy = {1, l.index + 1};
+    c.value = l.throughput * f.f *
+              static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
+    if (is_black(c.value)) return {};
+    const mis::Side side{pdf_a, f.pdf_rev_w, towards_light(e, c.strategy)};
+    fill_weights(e, c, [&](const auto& h, int i) {
+        return mis::light_tracing(h, l.mis[i], side, double(e.light_subpaths));
+    });
+    if (no_weight(e, c)) return {};
+
+    rays.count_shadow(c.strategy);
+    const float seen = visibility(*e.scene, leave(l, direction), lens);
+    if (seen == 0) return {};
+    c.value *= seen;
+    return s;
+}
+
+}  // namespace midway

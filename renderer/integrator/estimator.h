@@ -1,0 +1,132 @@
+// The estimators: `path`, `light` and `bdpt` of any exponent are one estimator with different families
+// of strategies (DESIGN, section 2). A sample is a camera subpath together with a light subpath, and
+//   s >= 2, t = 0   the camera walk hits a light         (seed, case 2)
+//   s >= 2, t = 1   next event                           (case 3)
+//   s = 1,  t >= 2  light tracing, splatted              (case 4)
+//   s >= 2, t >= 2  connection                           (case 1)
+//
+// Record is any type with
+//   void contribution(const Contribution&)   added to the sample's own pixel
+//   void splat(int x, int y, const Contribution&)
+//   bool wants(const Strategy&)              false: the strategy's rays need not be traced
+#pragma once
+
+#include <vector>
+
+#include "integrator/walk.h"
+
+namespace midway {
+
+// What one strategy found for one path: its unweighted estimate of the pixel's value, and the MIS
+// weight for every exponent.
+struct Contribution {
+    Strategy strategy;
+    vec3 value{0};
+    std::array<double, max_exponents> weights;
+};
+
+struct RayCounts {
+    std::uint64_t closest = 0, shadow = 0, camera_paths = 0, light_paths = 0;
+    // Shadow rays by strategy, where somebody asks (indexed by strategy_index).
+    std::vector<std::uint64_t>* by_strategy = nullptr;
+
+    void count_shadow(const Strategy& k) {
+        ++shadow;
+        if (by_strategy) ++(*by_strategy)[strategy_index(k)];
+    }
+};
+
+// Surface vertices of one light subpath; kept by each worker so that nothing is allocated per sample.
+using LightSubpath = std::vector<PathVertex>;
+
+// Fills the weights; `weigh` is called with the heuristic of each exponent.
+template <class Weigh>
+void fill_weights(const Estimator& e, Contribution& c, const Weigh& weigh) {
+    for (int i = 0; i < e.exponent_count; ++i)
+        c.weights[i] =
+            mis::with_heuristic(e.exponents[i], [&](const auto& h) { return weigh(h, i); });
+}
+
+// Next event from the camera vertex (t = 1); empty where nothing arrives.
+std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& camera,
+                                             const SampleKey& key, RayCounts& rays);
+
+// Connection of two surface vertices (s, t >= 2).
+std::optional<Contribution> connect(const Estimator& e, const PathVertex& camera,
+                                    const PathVertex& light, RayCounts& rays);
+
+// Light tracing from a light vertex (s = 1), with the pixel it is splatted to.
+struct Splat {
+    int x = 0, y = 0;
+    Contribution contribution;
+};
+std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& light,
+                                       const SampleKey& key, RayCounts& rays);
+
+// The camera walk reached a light, or the sky (t = 0).
+std::optional<Contribution> hit_light(const Estimator& e, const Walk& walk, Reached reached);
+
+// Walks the light subpath; every vertex is splatted, connectible vertices are kept.
+template <class Record>
+void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_t pass,
+                         LightSubpath& vertices, Record& record, RayCounts& rays) {
+    vertices.clear();
+    ++rays.light_paths;
+    std::optional<Walk> walk = start_light_walk(e, subpath, pass);
+    while (walk && walk->index < e.max_bounces) {
+        ++rays.closest;
+        if (extend(e, *walk) != Reached::surface) return;
+        const PathVertex& v = walk->vertex;
+        if (v.connectible) {
+            if (e.families.light_tracing && record.wants({1, v.index + 1}))
+                if (const auto s = connect_to_camera(e, v, walk->key, rays))
+                    record.splat(s->x, s->y, s->contribution);
+            if (e.families.connection) vertices.push_back(v);
+        }
+        if (walk->index == e.max_bounces || !scatter(*walk)) return;
+    }
+}
+
+// Walks the camera subpath and forms every strategy that ends on it.
+template <class Record>
+void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
+                          const LightSubpath& light, Record& record, RayCounts& rays) {
+    ++rays.camera_paths;
+    Walk walk = start_camera_walk(e, x, y, pass);
+    for (;;) {
+        ++rays.closest;
+        const Reached reached = extend(e, walk);
+        const Strategy hit{walk.index + 1, 0};
+        if (record.wants(hit))
+            if (const auto c = hit_light(e, walk, reached)) record.contribution(*c);
+        if (reached != Reached::surface || walk.index > e.max_bounces) return;
+
+        const PathVertex& v = walk.vertex;
+        if (v.connectible) {
+            if (e.families.next_event && record.wants({v.index + 1, 1}))
+                if (const auto c = connect_to_light(e, v, walk.key, rays)) record.contribution(*c);
+            for (const PathVertex& l : light) {
+                if (v.index + l.index > e.max_bounces) break;
+                if (!record.wants({v.index + 1, l.index + 1})) continue;
+                if (const auto c = connect(e, v, l, rays)) record.contribution(*c);
+            }
+        }
+        // Without emitter hits the last edge would find nothing.
+        const bool last = walk.index == e.max_bounces && !e.families.emitter_hit;
+        const bool only_lamps = !e.families.emitter_hit && !e.families.next_event &&
+                                !e.families.connection;
+        if (last || only_lamps || !scatter(walk)) return;
+    }
+}
+
+// The sample of one pixel in one pass, with the light subpath that belongs to it.
+template <class Record>
+void estimate(const Estimator& e, int x, int y, std::uint64_t pass, LightSubpath& scratch,
+              Record& record, RayCounts& rays) {
+    scratch.clear();
+    if (e.families.needs_light_subpaths())
+        trace_light_subpath(e, paired_subpath(e, x, y, pass), pass, scratch, record, rays);
+    trace_camera_subpath(e, x, y, pass, scratch, record, rays);
+}
+
+}  // namespace midway

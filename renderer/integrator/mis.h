@@ -1,0 +1,210 @@
+// Multiple importance sampling weights by recursion: equations (18) to (38) of the seed document
+// ("Practical implementation of MIS in Bidirectional Path Tracing"), for any exponent b >= 0 of the
+// heuristic w = (n p)^b / sum (n_i p_i)^b. Pure functions of pdfs; no scene.
+//
+// Each vertex i of a subpath, counted from its end (vertex 0: lens or light), carries two sums,
+//   vcm_i = (1 / p_i)^b                                                              (20)
+//   vc_i  = (g_{i-1} / p_i)^b (vcm_{i-1} + (p_sigma,i-2)^b vc_{i-1})                 (21)
+// with p_i the forward density per area of vertex i, g_{i-1} = cos / d^2 of the reverse direction at
+// vertex i-1 and p_sigma,i-2 the reverse density per solid angle from i-1 to i-2. A strategy is then
+// weighed by the four cases (26)-(33).
+//
+// Beyond the seed: a term counts only if its strategy is *feasible* (DESIGN, section 2), which is how
+// families, delta vertices and delta lights enter; next event and emission may have different
+// densities; x^b of a zero density is zero for every b, also 0.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "integrator/strategy.h"
+
+namespace midway::mis {
+
+// A positive number by its natural logarithm: powers of pdfs for large exponents overflow double.
+struct LogNumber {
+    double log = -std::numeric_limits<double>::infinity();
+
+    static LogNumber zero() { return {}; }
+    static LogNumber one() { return {0.0}; }
+    friend LogNumber operator*(LogNumber a, LogNumber b) { return {a.log + b.log}; }
+    friend LogNumber operator/(LogNumber a, LogNumber b) { return {a.log - b.log}; }
+    friend LogNumber operator+(LogNumber a, LogNumber b) {
+        const double high = std::max(a.log, b.log), low = std::min(a.log, b.log);
+        if (low == -std::numeric_limits<double>::infinity()) return {high};
+        return {high + std::log1p(std::exp(low - high))};
+    }
+};
+
+inline double to_double(double x) { return x; }
+inline double to_double(LogNumber x) { return std::exp(x.log); }
+
+// x^b of the four kinds of heuristic. Each has the number type that its sums are kept in.
+struct Uniform {
+    using Number = double;
+    Number operator()(double x) const { return x > 0 ? 1.0 : 0.0; }
+};
+struct Balance {
+    using Number = double;
+    Number operator()(double x) const { return x; }
+};
+struct Power2 {
+    using Number = double;
+    Number operator()(double x) const { return x * x; }
+};
+struct General {
+    using Number = LogNumber;
+    double exponent = 1;
+    Number operator()(double x) const {
+        return x > 0 ? LogNumber{exponent * std::log(x)} : LogNumber::zero();
+    }
+};
+
+inline double from_bits(double raw, double) { return raw; }
+inline LogNumber from_bits(double raw, LogNumber) { return {raw}; }
+inline double to_bits(double x) { return x; }
+inline double to_bits(LogNumber x) { return x.log; }
+
+// vcm and vc of one exponent, as a vertex stores them (values, or logarithms for General).
+struct State {
+    double vcm = 0, vc = 0;
+};
+
+// Calls `use` with the heuristic of exponent b.
+template <class Use>
+decltype(auto) with_heuristic(double exponent, Use&& use) {
+    if (exponent == 0) return use(Uniform{});
+    if (exponent == 1) return use(Balance{});
+    if (exponent == 2) return use(Power2{});
+    return use(General{exponent});
+}
+
+template <class H>
+struct Terms {
+    typename H::Number vcm, vc;
+};
+template <class H>
+Terms<H> load(const State& s) {
+    using N = typename H::Number;
+    return {from_bits(s.vcm, N{}), from_bits(s.vc, N{})};
+}
+template <class H>
+State store(const Terms<H>& t) {
+    return {to_bits(t.vcm), to_bits(t.vc)};
+}
+
+// Number of samples and families: what is feasible apart from the path itself.
+struct Setting {
+    Families families;
+    double light_subpaths = 1;  // n of eq. (22): light subpaths per sample of every pixel
+    bool has(const Strategy& k) const { return families.has(family_of(k)); }
+};
+
+// The factor of a term that belongs to a strategy: 1 where it is feasible.
+template <class H>
+typename H::Number feasible(const H& h, bool yes) {
+    return h(yes ? 1.0 : 0.0);
+}
+
+// Eq. (22), (23): vertex 1 of the camera subpath. p_1 is per area, for one sample per pixel area.
+template <class H>
+State start_camera(const H& h, double n, double pdf_a) {
+    return store<H>({h(n / pdf_a), h(0)});
+}
+
+// Eq. (24), (25): vertex 1 of a light subpath. r = next event's density of vertex 0 over emission's;
+// g_0 = cos / d^2 at the light, 1 for infinite lights (37). A delta light cannot be hit: vc = 0 (34).
+struct LightStart {
+    double pdf_origin = 0;      // p_0, of emission
+    double pdf_a = 0;           // p_1
+    double g_light = 0;         // g_0
+    double next_event_ratio = 1;  // r
+    bool hittable = true;
+};
+template <class H>
+State start_light(const H& h, const LightStart& l, const Setting& setting) {
+    const bool hit = l.hittable && setting.families.emitter_hit;
+    return store<H>({h(l.next_event_ratio / l.pdf_a),
+                     hit ? h(l.g_light / l.pdf_origin / l.pdf_a) : h(0)});
+}
+
+// The step from vertex i-1 to vertex i. For a delta vertex i-1 the densities are the coefficients of
+// its Dirac factors.
+struct Step {
+    double pdf_fwd_a = 0;  // p_i per area (coefficient * g_i behind a delta vertex)
+    double g_rev = 0;      // g_{i-1}: cos at vertex i-1 over d^2
+    double pdf_rev_w = 0;  // p_sigma,i-2 at vertex i-1
+    bool delta = false;    // vertex i-1 scattered by a delta lobe
+    bool connects = true;  // the strategy that vcm_{i-1} stands for is feasible
+};
+// Eq. (20), (21).
+template <class H>
+State advance(const H& h, const State& previous, const Step& k) {
+    const Terms<H> p = load<H>(previous);
+    const auto ratio = h(k.g_rev / k.pdf_fwd_a);
+    const auto rest = h(k.pdf_rev_w) * p.vc;
+    if (k.delta) return store<H>({h(0), ratio * rest});
+    return store<H>({h(1 / k.pdf_fwd_a), ratio * (feasible(h, k.connects) * p.vcm + rest)});
+}
+
+// w of one side of a connecting edge, eq. (26), (27): pdf_a is the density per area with which the
+// *other* side would have made this end vertex, pdf_rev_w the density from it to its own predecessor.
+struct Side {
+    double pdf_a = 0;
+    double pdf_rev_w = 0;
+    bool connects = true;  // the strategy that moves the edge by one to this side is feasible
+};
+template <class H>
+typename H::Number side_weight(const H& h, const State& state, const Side& k) {
+    const Terms<H> v = load<H>(state);
+    return h(k.pdf_a) * (feasible(h, k.connects) * v.vcm + h(k.pdf_rev_w) * v.vc);
+}
+
+template <class H>
+double weight_of(const H& h, typename H::Number camera, typename H::Number light) {
+    return to_double(h(1) / (camera + h(1) + light));  // eq. (14)
+}
+
+// Case 1, s, t >= 2: connection, eq. (26), (27).
+template <class H>
+double connection(const H& h, const State& camera, const Side& camera_side, const State& light,
+                  const Side& light_side) {
+    return weight_of(h, side_weight(h, camera, camera_side), side_weight(h, light, light_side));
+}
+
+// Case 2, t = 0: emitter hit, eq. (28), (29). The vcm term is next event's strategy and takes its
+// density, the vc term emission's.
+struct EmitterHitPdfs {
+    double origin = 0, leave = 0, next_event = 0;  // as LightPdfs in scene/light.h
+    bool next_event_feasible = true;
+};
+template <class H>
+double emitter_hit(const H& h, const State& camera, const EmitterHitPdfs& k) {
+    const Terms<H> v = load<H>(camera);
+    const auto by_next_event = h(k.next_event) * feasible(h, k.next_event_feasible) * v.vcm;
+    return weight_of(h, by_next_event + h(k.origin) * h(k.leave) * v.vc, h(0));
+}
+
+// Case 3, t = 1: next event, eq. (30) divided by r, and (31) over next event's density.
+struct NextEventPdfs {
+    double next_event = 0;  // density of the light point by next event, as LightPdfs
+    double origin = 0;      // by emission
+    double hit_pdf = 0;     // p_0 reversed: of the camera side hitting that point (area; solid angle for infinite lights)
+    bool hit_feasible = true;
+};
+template <class H>
+double next_event(const H& h, const State& camera, const Side& camera_side,
+                  const NextEventPdfs& k) {
+    const auto w_camera = h(k.origin / k.next_event) * side_weight(h, camera, camera_side);
+    const auto w_light = feasible(h, k.hit_feasible) * h(k.hit_pdf / k.next_event);
+    return weight_of(h, w_camera, w_light);
+}
+
+// Case 4, s = 1: light tracing, eq. (32), (33).
+template <class H>
+double light_tracing(const H& h, const State& light, Side light_side, double n) {
+    light_side.pdf_a /= n;
+    return weight_of(h, h(0), side_weight(h, light, light_side));
+}
+
+}  // namespace midway::mis

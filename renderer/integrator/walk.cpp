@@ -1,0 +1,177 @@
+#include "integrator/walk.h"
+
+namespace midway {
+namespace {
+
+enum Stream : std::uint64_t { camera_stream = 1, light_stream = 2, coin_stream = 3 };
+
+// Even and odd passes are two independent scrambles.
+SampleKey make_key(const Estimator& e, Stream stream, std::uint64_t pass, std::uint64_t place,
+                   std::uint64_t index) {
+    const std::uint64_t half = hash_combine(e.seed, 2 * stream + (pass & 1));
+    return {hash_combine(half, place), index, e.sampler};
+}
+
+std::uint64_t coin(const Walk& w) {
+    return hash_combine(hash_combine(w.key.key, w.key.index), coin_stream + 4 * std::uint64_t(w.index));
+}
+
+// Is the strategy that the previous vertex's vcm stands for feasible? On the camera side vertex i
+// stands for the connection of its i predecessors to a longer light subpath (light tracing for i = 1);
+// on the light side for i light vertices (next event for i = 1).
+bool previous_connects(const Estimator& e, const Walk& w) {
+    const int i = w.index - 1;
+    const Strategy k = w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{2, i};
+    return e.has(k);
+}
+
+template <class Update>
+void for_each_exponent(const Estimator& e, const Update& update) {
+    for (int i = 0; i < e.exponent_count; ++i)
+        mis::with_heuristic(e.exponents[i], [&](const auto& h) { update(h, i); });
+}
+
+// Sums at vertex 1: eq. (22)-(25), (34), (37), (38).
+void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
+    if (w.transport == Transport::radiance) {
+        const double pdf_a = w.pdf_fwd_w * cos_in / distance2;
+        for_each_exponent(e, [&](const auto& h, int i) {
+            w.mis[i] = mis::start_camera(h, double(e.light_subpaths), pdf_a);
+        });
+        return;
+    }
+    mis::LightStart l;
+    l.pdf_origin = w.light_pdfs.origin;
+    l.pdf_a = w.light_pdfs.leave * cos_in / (w.infinite_light ? 1 : distance2);
+    l.g_light = w.infinite_light ? 1 : w.cos_previous / distance2;
+    l.next_event_ratio = double(w.light_pdfs.next_event) / w.light_pdfs.origin;
+    l.hittable = w.hittable_light;
+    for_each_exponent(e, [&](const auto& h, int i) {
+        w.mis[i] = mis::start_light(h, l, e.mis_setting());
+    });
+}
+
+void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
+    const mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, previous_connects(e, w)};
+    for_each_exponent(e,
+                      [&](const auto& h, int i) { w.mis[i] = mis::advance(h, w.mis[i], step); });
+}
+
+}  // namespace
+
+SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass) {
+    const std::uint64_t place = (std::uint64_t(std::uint32_t(y)) << 32) | std::uint32_t(x);
+    return make_key(e, camera_stream, pass, place, pass >> 1);
+}
+
+SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass) {
+    return make_key(e, light_stream, pass, 0, (pass >> 1) * e.light_subpaths + subpath);
+}
+
+std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass) {
+    // In the order of the pixels, neighbours and successive passes would meet subpaths from the same
+    // strata; a permutation of its own for every pass leaves no pattern.
+    const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
+    return permute_index(pixel, e.light_subpaths, hash_combine(e.seed, 0x70616972 + pass));
+}
+
+Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
+    Walk w;
+    w.transport = Transport::radiance;
+    w.key = camera_key(e, x, y, pass);
+    const vec4 u = sample_4d(w.key, 0);
+    const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
+    w.ray.origin = lens_point(e.camera, {u.z, u.w});
+    w.ray.direction = camera_direction(e.camera, w.ray.origin, film);
+    w.previous_position = w.ray.origin;
+    w.pdf_fwd_w = camera_pdf_w(e.camera, glm::dot(w.ray.direction, e.camera.forward));
+    return w;
+}
+
+std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
+                                     std::uint64_t pass) {
+    Walk w;
+    w.transport = Transport::importance;
+    w.key = light_key(e, subpath, pass);
+    const vec4 u = sample_4d(w.key, 0);
+    const float pick = sample_4d(w.key, 1).x;
+    const std::optional<EmissionSample> s =
+        sample_emission(*e.scene, {pick, {u.x, u.y}, {u.z, u.w}});
+    if (!s) return {};
+    const LightKind kind = e.scene->lights[s->light].kind;
+    w.ray.origin = kind == LightKind::area
+                       ? offset_origin(s->position, s->normal, s->error, s->direction)
+                       : s->position;
+    w.ray.direction = s->direction;
+    w.previous_position = s->position;
+    w.throughput = s->weight;
+    w.roulette_reference = max_component(s->weight);
+    w.cos_previous = s->cos_theta;
+    w.light_pdfs = s->pdfs;
+    w.infinite_light = is_infinite(kind);
+    w.hittable_light = !is_delta(kind);
+    return w;
+}
+
+Reached extend(const Estimator& e, Walk& w) {
+    const std::optional<SurfacePoint> hit = intersect(*e.scene, w.ray, coin(w));
+    ++w.index;
+    if (!hit) {
+        if (w.index == 1)
+            start_sums(e, w, 1, 1);
+        else
+            advance_sums(e, w, 1, w.cos_previous);
+        return Reached::sky;
+    }
+    w.point = *hit;
+    const vec3 back = w.previous_position - hit->position;
+    const double distance2 = length_squared(back);
+    // Two surfaces that touch within rounding: there is no edge to walk.
+    if (!(distance2 > 0)) return Reached::nothing;
+    PathVertex& v = w.vertex;
+    v.position = hit->position;
+    v.error = hit->error;
+    v.ng = hit->shading.ng;
+    // From an infinitely far light the edge has the direction of the ray, wherever the disc lies.
+    v.to_previous = w.infinite_light && w.index == 1 ? -w.ray.direction
+                                                     : back / static_cast<float>(std::sqrt(distance2));
+    v.throughput = w.throughput;
+    v.bsdf = make_bsdf(material_at(*e.scene, *hit), e.scene->textures, hit->shading);
+    v.index = w.index;
+    v.connectible = v.bsdf.connectible();
+    const double cos_in = abs_dot(v.ng, v.to_previous);
+    if (!(cos_in > 0)) return Reached::nothing;
+    if (w.index == 1)
+        start_sums(e, w, cos_in, distance2);
+    else
+        advance_sums(e, w, cos_in / distance2, w.cos_previous / distance2);
+    v.mis = w.mis;
+    return Reached::surface;
+}
+
+bool scatter(Walk& w) {
+    const PathVertex& v = w.vertex;
+    const vec4 u = sample_4d(w.key, scatter_group(w.index));
+    const std::optional<BsdfSample> s = sample_bsdf(v.bsdf, v.to_previous, vec3(u), w.transport);
+    if (!s) return false;
+    w.throughput *= s->weight;
+    // Refraction scales radiance until the path leaves the glass again; survival ignores that.
+    w.roulette_reference *= s->eta_scale;
+    if (w.index >= roulette_start) {
+        const float survival = max_component(w.throughput) / w.roulette_reference;
+        if (survival < 1) {
+            if (!(u.w < survival)) return false;
+            w.throughput /= survival;
+        }
+    }
+    w.ray.origin = offset_origin(v.position, v.ng, v.error, s->to);
+    w.ray.direction = s->to;
+    w.previous_position = v.position;
+    w.pdf_fwd_w = s->pdf_fwd_w;
+    w.pdf_rev_w = s->pdf_rev_w;
+    w.cos_previous = abs_dot(v.ng, s->to);
+    w.delta = s->delta;
+    return true;
+}
+
+}  // namespace midway

@@ -1,0 +1,106 @@
+// Random walks from the camera or from a light. One walk serves both ends: extend() traces to the next
+// surface and keeps the sums of the MIS weights up to date, scatter() chooses where to go from there.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "image/pixel_filter.h"
+#include "integrator/mis.h"
+#include "math/sampler.h"
+#include "scene/scene.h"
+
+namespace midway {
+
+// How many exponents one set of paths can be weighed with at once.
+inline constexpr int max_exponents = 8;
+
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // x1, y1 excluded
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    std::int64_t area() const { return std::int64_t{width()} * height(); }
+    bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
+};
+
+// All that an estimator needs to know apart from the sample's number.
+struct Estimator {
+    const Scene* scene = nullptr;
+    Camera camera;
+    PixelFilter filter;
+    PixelRect crop;
+    Families families;
+    bool direct_lamps = true;  // (2,0) is shown, also where emitter hits are not a family in use
+    std::array<double, max_exponents> exponents{2};
+    int exponent_count = 1;
+    int max_bounces = 16;
+    std::uint64_t seed = 0;
+    SamplerKind sampler = SamplerKind::sobol;
+    std::uint64_t light_subpaths = 1;  // per pass: n of eq. (22)
+
+    mis::Setting mis_setting() const { return {families, double(light_subpaths)}; }
+    bool has(const Strategy& k) const { return families.has(family_of(k)); }
+};
+
+// The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy keeps
+// its own expectation, whatever the survival probability.
+inline constexpr int roulette_start = 4;
+
+// A surface vertex of a subpath. Endpoints (lens, light) are never stored.
+struct PathVertex {
+    vec3 position{0};
+    float error = 0;
+    vec3 ng{0, 0, 1};
+    vec3 to_previous{0, 0, 1};  // unit
+    vec3 throughput{0};         // of the subpath up to here, this vertex's scattering excluded
+    Bsdf bsdf;
+    std::array<mis::State, max_exponents> mis;
+    int index = 0;  // edges walked: 1 for the first surface
+    bool connectible = false;
+};
+
+struct Walk {
+    Transport transport = Transport::radiance;
+    SampleKey key;
+    Ray ray;
+    vec3 throughput{1};
+    float roulette_reference = 1;  // throughput at which a walk survives for sure
+
+    // Of the scattering at the previous vertex (or the start), for the next extend().
+    vec3 previous_position{0};
+    float pdf_fwd_w = 0, pdf_rev_w = 0;
+    float cos_previous = 1;
+    bool delta = false;
+    std::array<mis::State, max_exponents> mis;
+
+    // Start of a light subpath; unused by the camera.
+    LightPdfs light_pdfs;
+    bool infinite_light = false, hittable_light = true;
+
+    int index = 0;  // of the vertex reached last
+    SurfacePoint point;
+    PathVertex vertex;
+};
+
+SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
+SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
+// The light subpath that the camera sample of a pixel meets in a pass.
+std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);
+
+Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass);
+std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
+                                     std::uint64_t pass);
+
+// Traces to the next vertex. Where the ray leaves the scene, walk.mis holds the sums for a vertex at
+// infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
+enum class Reached : std::uint8_t { surface, sky, nothing };
+Reached extend(const Estimator& e, Walk& walk);
+
+// Chooses the next direction. False where the walk ends.
+bool scatter(Walk& walk);
+
+// Groups of the sampler that a vertex uses.
+inline std::uint32_t scatter_group(int index) { return 2 + 2 * static_cast<std::uint32_t>(index); }
+inline std::uint32_t connect_group(int index) { return 3 + 2 * static_cast<std::uint32_t>(index); }
+
+}  // namespace midway

@@ -1,0 +1,41 @@
+// Integer hashes that keys of the random streams go through.
+#pragma once
+
+#include <cstdint>
+
+namespace midway {
+
+// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection of 64 bits.
+constexpr std::uint64_t mix64(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15ull;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+    return x ^ (x >> 31);
+}
+
+constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) { return mix64(a ^ mix64(b)); }
+
+// Uniform float in [0, 1 - 2^-24] from the upper 24 bits.
+constexpr float to_unit_float(std::uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
+
+// A permutation of [0, n) chosen by `key`: four Feistel rounds on the next even power of two, walked
+// until the value falls into range (Black & Rogaway 2002, cycle walking).
+constexpr std::uint64_t permute_index(std::uint64_t index, std::uint64_t n, std::uint64_t key) {
+    int half_bits = 1;
+    while ((std::uint64_t{1} << (2 * half_bits)) < n) ++half_bits;
+    const std::uint64_t mask = (std::uint64_t{1} << half_bits) - 1;
+    do {
+        std::uint64_t left = index >> half_bits, right = index & mask;
+        for (int round = 0; round < 4; ++round) {
+            const std::uint64_t next = left ^ (mix64(right + key + (std::uint64_t(round) << 56)) & mask);
+            left = right;
+            right = next;
+        }
+        index = (left << half_bits) | right;
+    } while (index >= n);
+    return index;
+}
+
+}  // namespace midway

@@ -1,0 +1,51 @@
+// Warps from the unit square to the shapes that are sampled, each beside its density. Random numbers
+// lie in [0, 1 - 2^-24]; every warp gives a finite result of non-zero density for all of them.
+#pragma once
+
+#include "math/frame.h"
+#include "math/vector.h"
+
+namespace midway {
+
+// Uniform on the unit disc, area-preserving and continuous (Shirley & Chiu 1997).
+inline vec2 square_to_disc(const vec2& u) {
+    const float a = 2 * u.x - 1, b = 2 * u.y - 1;
+    if (a == 0 && b == 0) return vec2(0);
+    const bool wide = std::abs(a) > std::abs(b);
+    const float r = wide ? a : b;
+    const float phi = wide ? (pi / 4) * (b / a) : (pi / 2) - (pi / 4) * (a / b);
+    return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+// Cosine-weighted about +z (Malley's method); z is kept above zero so that the density is too.
+inline vec3 square_to_cosine_hemisphere(const vec2& u) {
+    const vec2 d = square_to_disc(u);
+    return {d.x, d.y, std::sqrt(std::max(1e-12f, 1 - d.x * d.x - d.y * d.y))};
+}
+inline float cosine_hemisphere_pdf_w(float cos_theta) { return cos_theta * inv_pi; }
+
+// Direction at height z with azimuth 2 pi u.
+inline vec3 direction_from_z(float z, float u) {
+    const float r = safe_sqrt((1 - z) * (1 + z));
+    const float phi = 2 * pi * u;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+inline vec3 square_to_sphere(const vec2& u) { return direction_from_z(1 - 2 * u.x, u.y); }
+inline constexpr float sphere_pdf_w = 0.25f * inv_pi;
+
+// Barycentric coordinates of vertices 1 and 2, uniform on the triangle, without the crease of the
+// square root (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+inline vec2 square_to_triangle(const vec2& u) {
+    vec2 b = u;
+    if (b.y > b.x) {
+        b.x *= 0.5f;
+        b.y -= b.x;
+    } else {
+        b.y *= 0.5f;
+        b.x -= b.y;
+    }
+    return b;
+}
+
+}  // namespace midway

@@ -1,0 +1,126 @@
+#include "render/coverage.h"
+
+#include <set>
+
+#include "shading/microfacet.h"
+
+namespace midway {
+namespace {
+
+// Surfaces of a path from the camera on: 'R' can be connected, 'S' scattered by a delta lobe.
+using Pattern = std::string;
+
+bool is_rough(const Pattern& p, int vertex) { return p[vertex - 1] == 'R'; }
+
+// Vertices: camera 0, surfaces 1..n, light n + 1.
+bool feasible(const Pattern& p, bool hittable, const Strategy& k, const Families& families,
+              bool direct_lamps) {
+    const int n = static_cast<int>(p.size());
+    if (n == 0) return k.t == 0 && hittable && (families.emitter_hit || direct_lamps);
+    if (!families.has(family_of(k))) return false;
+    if (k.t == 0) return hittable;
+    if (k.t == 1) return is_rough(p, n);
+    if (k.s == 1) return is_rough(p, 1);
+    return is_rough(p, k.s - 1) && is_rough(p, k.s);
+}
+
+bool covered(const Pattern& p, bool hittable, const Families& f, bool direct_lamps) {
+    const int vertices = static_cast<int>(p.size()) + 2;
+    for (int s = 1; s <= vertices; ++s) {
+        const Strategy k{s, vertices - s};
+        if (k == Strategy{1, 1}) continue;
+        if (feasible(p, hittable, k, f, direct_lamps)) return true;
+    }
+    return false;
+}
+
+// Can light travel this way at all? A delta light seen in mirrors alone has no measurable path.
+bool measurable(const Pattern& p, bool hittable) {
+    return hittable || p.find('R') != Pattern::npos;
+}
+
+std::string in_words(const Pattern& p, bool hittable, const SceneFeatures& f) {
+    std::string text = hittable ? "lamp or sky" : f.delta_light_names + " light";
+    for (auto it = p.rbegin(); it != p.rend(); ++it)
+        text += *it == 'R' ? " > rough surface" : " > smooth surface";
+    return text + " > camera";
+}
+
+std::string_view kind_word(LightKind k) {
+    return k == LightKind::point ? "point" : k == LightKind::spot ? "spot" : "directional";
+}
+
+}  // namespace
+
+SceneFeatures scene_features(const Scene& s) {
+    SceneFeatures f;
+    f.transparent = s.has_transparency;
+    for (const Object& o : s.geometry->objects) {
+        const Material& m = s.materials[o.material];
+        // Textures can only lower roughness, metalness and transmission below their factors.
+        const bool may_be_smooth =
+            sqr(m.roughness) < smooth_alpha || m.metallic_roughness_texture.used() ||
+            std::abs(m.ior - 1) < 1e-3f;
+        const bool mirrors = m.specular > 0 || m.metallic > 0 || m.transmission > 0;
+        const bool black = max_component(m.base_color) == 0;
+        const bool diffuse = !black && (m.metallic < 1 || m.metallic_roughness_texture.used()) &&
+                             (m.transmission < 1 || m.transmission_texture.used());
+        f.smooth |= mirrors && may_be_smooth;
+        f.rough |= diffuse || (mirrors && (sqr(m.roughness) >= smooth_alpha));
+    }
+    std::set<std::string_view> kinds;
+    for (const Light& l : s.lights) {
+        if (!(l.power > 0)) continue;
+        if (is_delta(l.kind)) kinds.insert(kind_word(l.kind));
+        (is_delta(l.kind) ? f.delta_lights : f.hittable_lights) = true;
+    }
+    for (const std::string_view k : kinds)
+        f.delta_light_names += (f.delta_light_names.empty() ? "" : ", ") + std::string(k);
+    return f;
+}
+
+std::vector<FamilyNeed> family_needs(const SceneFeatures& f) {
+    std::vector<FamilyNeed> needs;
+    const bool any_light = f.delta_lights || f.hittable_lights;
+    needs.push_back({"emitter", f.hittable_lights,
+                     f.hittable_lights ? "there are lamps or a sky that a ray can hit"
+                                       : "no light here can be hit by a ray"});
+    const bool connects = f.rough && any_light;
+    const std::string why_not = any_light ? "no surface here can be connected to: all are smooth or black"
+                                          : "there is no light";
+    needs.push_back({"next-event", connects,
+                     connects ? "rough surfaces can be connected to lights" : why_not});
+    needs.push_back({"light", connects,
+                     connects ? "rough surfaces can be connected to the camera" : why_not});
+    needs.push_back({"connect", connects,
+                     connects ? "rough surfaces can be connected to each other" : why_not});
+    return needs;
+}
+
+std::vector<std::string> not_covered(const SceneFeatures& f, const Families& families,
+                                     bool direct_lamps) {
+    std::vector<std::string> result;
+    constexpr int longest = 4;
+    for (const bool hittable : {true, false}) {
+        if (!(hittable ? f.hittable_lights : f.delta_lights)) continue;
+        std::vector<Pattern> shortest;
+        for (int n = 0; n <= longest; ++n)
+            for (int bits = 0; bits < (1 << n); ++bits) {
+                Pattern p;
+                for (int i = 0; i < n; ++i) p += (bits >> i) & 1 ? 'S' : 'R';
+                const bool exists = (f.rough || p.find('R') == Pattern::npos) &&
+                                    (f.smooth || p.find('S') == Pattern::npos);
+                if (!exists || !measurable(p, hittable) ||
+                    covered(p, hittable, families, direct_lamps))
+                    continue;
+                // A longer path that contains one already told says nothing new.
+                bool told = false;
+                for (const Pattern& q : shortest) told |= p.find(q) != Pattern::npos;
+                if (!told) shortest.push_back(p);
+            }
+        for (const Pattern& p : shortest) result.push_back(in_words(p, hittable, f));
+    }
+    return result;
+}
+
+}  // namespace midway

@@ -1,0 +1,35 @@
+// Which paths a scene can have, which families of strategies can make them, and which no strategy of
+// a technique can (DESIGN, section 2: a technique covers a path if one of its strategies is feasible).
+// Found from what is in the scene, before any sample.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/settings.h"
+
+namespace midway {
+
+struct SceneFeatures {
+    bool rough = false;        // surfaces that can be connected to
+    bool smooth = false;       // surfaces with a delta lobe
+    bool transparent = false;  // alpha below one
+    bool hittable_lights = false;
+    bool delta_lights = false;
+    std::string delta_light_names;  // kinds, for messages: "point, spot"
+};
+
+SceneFeatures scene_features(const Scene& scene);
+
+struct FamilyNeed {
+    std::string family;
+    bool needed = false;
+    std::string why;
+};
+std::vector<FamilyNeed> family_needs(const SceneFeatures& features);
+
+// The kinds of path, in words, that these families cannot make although the scene may have them.
+std::vector<std::string> not_covered(const SceneFeatures& features, const Families& families,
+                                     bool direct_lamps);
+
+}  // namespace midway

@@ -1,0 +1,160 @@
+// Where an estimator's contributions go: the films, and (where somebody looks) strategy layers and
+// statistics. One per worker; it also counts what must not pass in silence.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "image/film.h"
+#include "integrator/estimator.h"
+#include "render/settings.h"
+
+namespace midway {
+
+// Sums of one strategy over all samples, of luminance; exact, so independent of the threads.
+struct StrategySums {
+    std::uint64_t samples = 0;  // contributions above zero
+    Int128 energy = 0;          // weighted by the first exponent
+    Int128 second_moment = 0;   // of the weighted contributions, in units of the film's squared
+};
+
+// A pair of films of one strategy: weighted (first exponent) and bare.
+struct StrategyFilms {
+    Film weighted, bare;
+};
+
+// A sample whose contribution was not finite: the one of lowest (pixel, sample) is kept.
+struct NonFinite {
+    std::uint64_t count = 0;
+    int x = 0, y = 0;
+    std::uint64_t pass = 0;
+
+    void add(int px, int py, std::uint64_t p) {
+        if (count++ == 0 || std::tie(py, px, p) < std::tie(y, x, pass)) {
+            x = px;
+            y = py;
+            pass = p;
+        }
+    }
+    void merge(const NonFinite& o) {
+        if (o.count == 0) return;
+        const std::uint64_t all = count + o.count;
+        if (count == 0 || std::tie(o.y, o.x, o.pass) < std::tie(y, x, pass)) *this = o;
+        count = all;
+    }
+};
+
+// What all workers share.
+struct FilmTargets {
+    std::vector<Film>* films = nullptr;                              // one per exponent
+    std::vector<std::unique_ptr<StrategyFilms>>* layers = nullptr;   // by strategy_index, or null
+    bool statistics = false;
+    PixelRect crop;
+    std::vector<bool> wanted;  // by strategy_index; empty: all
+    bool unweighted = false;
+    float clamp = std::numeric_limits<float>::infinity();
+};
+
+// What one worker gathers beside the films.
+struct WorkerSums {
+    RayCounts rays;
+    FixedCounts fixed;
+    NonFinite nonfinite;
+    std::uint64_t clamped = 0;
+    std::vector<StrategySums> strategies;
+    std::vector<std::uint64_t> strategy_rays;
+};
+
+template <bool observed>
+class FilmRecord {
+  public:
+    FilmRecord(const FilmTargets& targets, WorkerSums& sums) : targets_(targets), sums_(sums) {}
+
+    void begin(int x, int y, std::uint64_t pass) {
+        x_ = x;
+        y_ = y;
+        pass_ = pass;
+        for (auto& a : pixel_) a = {};
+    }
+
+    bool wants(const Strategy& k) const {
+        return targets_.wanted.empty() || targets_.wanted[strategy_index(k)];
+    }
+
+    void contribution(const Contribution& c) {
+        if (!usable(c)) return;
+        for (size_t i = 0; i < targets_.films->size(); ++i) {
+            const FixedRgb v = fixed(weighted(c, i));
+            for (int k = 0; k < 3; ++k) pixel_[i][k] += v[k];
+        }
+        if constexpr (observed) observe(c, x_, y_);
+    }
+
+    void splat(int x, int y, const Contribution& c) {
+        if (!usable(c)) return;
+        for (size_t i = 0; i < targets_.films->size(); ++i)
+            (*targets_.films)[i].add(half(), x - targets_.crop.x0, y - targets_.crop.y0,
+                                     fixed(weighted(c, i)));
+        if constexpr (observed) observe(c, x, y);
+    }
+
+    // Adds the sample's sum to its pixel.
+    void end() {
+        for (size_t i = 0; i < targets_.films->size(); ++i)
+            (*targets_.films)[i].add(half(), x_ - targets_.crop.x0, y_ - targets_.crop.y0, pixel_[i]);
+    }
+
+  private:
+    int half() const { return static_cast<int>(pass_ & 1); }
+
+    bool usable(const Contribution& c) {
+        bool finite = is_finite(c.value);
+        for (size_t i = 0; i < targets_.films->size(); ++i) finite &= std::isfinite(c.weights[i]);
+        if (!finite) sums_.nonfinite.add(x_, y_, pass_);
+        return finite;
+    }
+
+    vec3 weighted(const Contribution& c, size_t exponent) {
+        vec3 v = targets_.unweighted ? c.value : c.value * static_cast<float>(c.weights[exponent]);
+        const float largest = max_component(v);
+        if (largest > targets_.clamp) {
+            v *= targets_.clamp / largest;
+            ++sums_.clamped;
+        }
+        return v;
+    }
+
+    FixedRgb fixed(const vec3& v) {
+        const int unit = targets_.films->front().unit_exponent();
+        return {to_fixed(v.x, unit, sums_.fixed), to_fixed(v.y, unit, sums_.fixed),
+                to_fixed(v.z, unit, sums_.fixed)};
+    }
+
+    void observe(const Contribution& c, int x, int y) {
+        const size_t k = strategy_index(c.strategy);
+        const vec3 w = weighted(c, 0);
+        if (targets_.statistics) {
+            const int unit = targets_.films->front().unit_exponent();
+            const float l = luminance(w);
+            StrategySums& s = sums_.strategies[k];
+            ++s.samples;
+            s.energy += to_fixed(l, unit, sums_.fixed);
+            // The square of a film's value has its own unit, again 2^-90 of the power's square.
+            FixedCounts ignored;
+            s.second_moment += to_fixed(l * l, 2 * unit + 90, ignored);
+        }
+        if (!targets_.layers || k >= targets_.layers->size() || !(*targets_.layers)[k]) return;
+        StrategyFilms& films = *(*targets_.layers)[k];
+        films.weighted.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, fixed(w));
+        films.bare.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, fixed(c.value));
+    }
+
+    const FilmTargets& targets_;
+    WorkerSums& sums_;
+    int x_ = 0, y_ = 0;
+    std::uint64_t pass_ = 0;
+    std::array<FixedRgb, max_exponents> pixel_{};
+};
+
+}  // namespace midway

@@ -1,0 +1,141 @@
+#include "render/prepare.h"
+
+#include <charconv>
+#include <chrono>
+#include <stdexcept>
+
+#include "io/gltf.h"
+#include "math/hash.h"
+
+namespace midway {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::optional<vec3> parse_color(const std::string& text) {
+    vec3 c;
+    const char* p = text.data();
+    const char* end = p + text.size();
+    for (int i = 0; i < 3; ++i) {
+        const auto [next, error] = std::from_chars(p, end, c[i]);
+        if (error != std::errc()) return {};
+        p = next;
+        if (i < 2 && (p == end || *p++ != ',')) return {};
+    }
+    if (p != end) return {};
+    return c;
+}
+
+SkyDescription chosen_sky(const std::string& text) {
+    SkyDescription sky;
+    if (const std::optional<vec3> color = parse_color(text)) {
+        if (!is_finite(*color) || color->x < 0 || color->y < 0 || color->z < 0)
+            throw std::runtime_error("sky colour is negative or not finite (--sky " + text +
+                                     "); give three numbers from 0 up");
+        sky.source = "colour";
+        sky.color = *color;
+        return sky;
+    }
+    sky.source = text;
+    sky.map = std::make_shared<Image>(read_image(text).image);
+    return sky;
+}
+
+bool has_light(const SceneDescription& d) {
+    if (d.sky) return true;
+    for (const PunctualLight& l : d.lights)
+        if (l.intensity > 0 && max_component(l.color) > 0) return true;
+    for (const Instance& i : d.instances)
+        if (max_component(d.materials[i.material].emission) > 0) return true;
+    return false;
+}
+
+CameraDescription named_camera(const SceneDescription& d, const std::string& name) {
+    for (const CameraDescription& c : d.cameras)
+        if (c.name == name) return c;
+    size_t index = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), index);
+    if (error == std::errc() && end == name.data() + name.size() && index < d.cameras.size())
+        return d.cameras[index];
+    std::string known;
+    for (const CameraDescription& c : d.cameras)
+        known += (known.empty() ? "" : ", ") + ("\"" + c.name + "\"");
+    throw std::runtime_error(
+        "no camera \"" + name + "\" (" + d.source + "); " +
+        (known.empty() ? "the file has no camera, leave --camera out" : "use one of " + known));
+}
+
+CameraDescription choose_camera(const SceneOptions& o, PreparedScene& p) {
+    const SceneDescription& d = p.description;
+    CameraDescription c;
+    if (o.camera) {
+        c = named_camera(d, *o.camera);
+    } else if (!d.cameras.empty()) {
+        c = d.cameras.front();
+    } else {
+        const Bounds b = scene_bounds(d).value_or(Bounds{dvec3(-0.5), dvec3(0.5)});
+        c = frame_scene(b.lower, b.upper);
+        if (!o.look_at)
+            p.warnings.push_back("the file has no camera; the whole scene is framed");
+    }
+    if (o.look_at) {
+        const auto& v = *o.look_at;
+        const dvec3 eye(v[0], v[1], v[2]), target(v[3], v[4], v[5]);
+        if (!(glm::length(eye - target) > 0))
+            throw std::runtime_error(
+                "camera and target are the same point (--look-at); give two points");
+        c = look_at(c, eye, target);
+    }
+    if (o.fov_degrees) {
+        if (!(*o.fov_degrees > 0 && *o.fov_degrees < 180))
+            throw std::runtime_error("field of view out of range (--fov); use 0 to 180 degrees");
+        c.yfov = glm::radians(*o.fov_degrees);
+    }
+    if (o.aperture_radius) c.aperture_radius = *o.aperture_radius;
+    if (o.focus_distance) c.focus_distance = *o.focus_distance;
+    if (!(c.aperture_radius >= 0) || !(c.focus_distance >= 0))
+        throw std::runtime_error("negative lens (--aperture, --focus); use numbers from 0 up");
+    return c;
+}
+
+void choose_lights(const SceneOptions& o, PreparedScene& p) {
+    SceneDescription& d = p.description;
+    if (o.sky) d.sky = chosen_sky(*o.sky);
+    if (!has_light(d)) {
+        d.sky = default_sky();
+        p.warnings.push_back("the scene has no light; a soft default sky is used (--sky changes it)");
+    }
+    if (d.sky) {
+        d.sky->rotation_degrees += o.sky_rotation_degrees;
+        d.sky->strength *= o.sky_strength;
+    }
+    d.lamp_strength = o.lamp_strength;
+    if (!(o.lamp_strength >= 0) || !(o.sky_strength >= 0))
+        throw std::runtime_error(
+            "negative strength (--lamp-strength, --sky-strength); use numbers from 0 up");
+}
+
+}  // namespace
+
+PreparedScene prepare_scene(const SceneOptions& o) {
+    PreparedScene p;
+    const auto start = Clock::now();
+    p.description = load_gltf(o.path);
+    p.warnings = p.description.warnings;
+    choose_lights(o, p);
+    p.camera = choose_camera(o, p);
+    p.seconds_load = seconds_since(start);
+    const auto build = Clock::now();
+    p.scene = std::make_shared<Scene>(build_scene(p.description, p.warnings));
+    p.hash = hash_scene(p.description, p.camera);
+    if (p.scene->geometry->triangle_count == 0)
+        p.warnings.push_back("the scene holds no triangles; only the sky can be seen");
+    p.seconds_build = seconds_since(build);
+    return p;
+}
+
+}  // namespace midway

@@ -1,0 +1,188 @@
+#include "render/renderer.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "math/float_mode.h"
+
+namespace midway {
+namespace {
+
+constexpr int tile_size = 32;
+
+struct Tiles {
+    PixelRect crop;
+    int columns() const { return (crop.width() + tile_size - 1) / tile_size; }
+    int rows() const { return (crop.height() + tile_size - 1) / tile_size; }
+    std::uint64_t count() const { return std::uint64_t(columns()) * rows(); }
+    PixelRect at(std::uint64_t i) const {
+        const int x = crop.x0 + static_cast<int>(i % columns()) * tile_size;
+        const int y = crop.y0 + static_cast<int>(i / columns()) * tile_size;
+        return {x, y, std::min(x + tile_size, crop.x1), std::min(y + tile_size, crop.y1)};
+    }
+};
+
+std::vector<bool> wanted_strategies(const RenderSettings& s) {
+    if (s.only.empty()) return {};
+    std::vector<bool> wanted(strategy_count(s.max_bounces + 1), false);
+    for (const Strategy& k : s.only)
+        if (strategy_index(k) < wanted.size()) wanted[strategy_index(k)] = true;
+    return wanted;
+}
+
+// Strategies (s, t) whose films are kept: those that exist for the estimator's families.
+void make_layers(const Estimator& e, int edges, int unit,
+                 std::vector<std::unique_ptr<StrategyFilms>>& layers) {
+    const int longest = std::min(edges, e.max_bounces + 1);
+    layers.resize(strategy_count(longest));
+    for (int length = 1; length <= longest; ++length)
+        for (int s = 1; s <= length + 1; ++s) {
+            const Strategy k{s, length + 1 - s};
+            if (k == Strategy{1, 1} || k == Strategy{1, 0}) continue;
+            if (!e.has(k) && !(k == Strategy{2, 0} && e.direct_lamps)) continue;
+            if (k.s == 1 && k.t == 0) continue;
+            layers[strategy_index(k)] = std::make_unique<StrategyFilms>(
+                StrategyFilms{Film(e.crop.width(), e.crop.height(), unit),
+                              Film(e.crop.width(), e.crop.height(), unit)});
+        }
+}
+
+}  // namespace
+
+ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
+                                         const CameraDescription& camera,
+                                         const RenderSettings& settings,
+                                         const RendererOptions& options)
+    : scene_(std::move(scene)), estimator_(make_estimator(*scene_, camera, settings)) {
+    const int processors = std::max(1u, std::thread::hardware_concurrency());
+    threads_ = options.threads > 0 ? options.threads : processors;
+    const int unit = film_unit_exponent(scene_->total_power);
+    for (int i = 0; i < estimator_.exponent_count; ++i)
+        films_.emplace_back(estimator_.crop.width(), estimator_.crop.height(), unit);
+    if (options.layer_edges > 0) make_layers(estimator_, options.layer_edges, unit, layers_);
+    targets_.films = &films_;
+    targets_.layers = layers_.empty() ? nullptr : &layers_;
+    targets_.statistics = options.statistics;
+    targets_.crop = estimator_.crop;
+    targets_.wanted = wanted_strategies(settings);
+    targets_.unweighted = settings.unweighted;
+    if (settings.clamp) targets_.clamp = *settings.clamp;
+    const size_t strategies = strategy_count(settings.max_bounces + 1) + 1;
+    if (options.statistics) {
+        totals_.strategies.resize(strategies);
+        totals_.strategy_rays.resize(strategies);
+    }
+}
+
+template <bool observed>
+void ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t items,
+                               WorkerSums& sums) {
+    const ScopedFlushToZero flush;
+    const Tiles tiles{estimator_.crop};
+    LightSubpath scratch;
+    scratch.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
+    FilmRecord<observed> record(targets_, sums);
+    for (std::uint64_t i = next++; i < items; i = next++) {
+        const std::uint64_t pass = passes_ + i / tiles.count();
+        const PixelRect tile = tiles.at(i % tiles.count());
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                record.begin(x, y, pass);
+                estimate(estimator_, x, y, pass, scratch, record, sums.rays);
+                record.end();
+            }
+    }
+}
+
+void ProgressiveRenderer::render_passes(std::uint64_t count,
+                                        const std::function<void(double)>& tick) {
+    const std::uint64_t items = count * Tiles{estimator_.crop}.count();
+    const bool observed = targets_.layers || targets_.statistics;
+    std::atomic<std::uint64_t> next{0};
+    std::vector<WorkerSums> sums(threads_);
+    std::mutex mutex;
+    std::condition_variable finished;
+    int running = threads_;
+    {
+        std::vector<std::jthread> workers;
+        for (WorkerSums& s : sums) {
+            s.strategies.resize(totals_.strategies.size());
+            s.strategy_rays.resize(totals_.strategy_rays.size());
+            if (targets_.statistics) s.rays.by_strategy = &s.strategy_rays;
+            workers.emplace_back([&] {
+                if (observed)
+                    work<true>(next, items, s);
+                else
+                    work<false>(next, items, s);
+                const std::lock_guard lock(mutex);
+                --running;
+                finished.notify_one();
+            });
+        }
+        std::unique_lock lock(mutex);
+        while (!finished.wait_for(lock, std::chrono::milliseconds(100),
+                                  [&] { return running == 0; }))
+            if (tick) tick(std::min(1.0, double(next) / double(items)));
+    }
+    for (const WorkerSums& s : sums) merge(s);
+    passes_ += count;
+}
+
+void ProgressiveRenderer::merge(const WorkerSums& s) {
+    totals_.rays.closest += s.rays.closest;
+    totals_.rays.shadow += s.rays.shadow;
+    totals_.rays.camera_paths += s.rays.camera_paths;
+    totals_.rays.light_paths += s.rays.light_paths;
+    totals_.fixed.inexact += s.fixed.inexact;
+    totals_.fixed.overflow += s.fixed.overflow;
+    totals_.nonfinite.merge(s.nonfinite);
+    totals_.clamped += s.clamped;
+    for (size_t i = 0; i < s.strategies.size(); ++i) {
+        totals_.strategies[i].samples += s.strategies[i].samples;
+        totals_.strategies[i].energy += s.strategies[i].energy;
+        totals_.strategies[i].second_moment += s.strategies[i].second_moment;
+        totals_.strategy_rays[i] += s.strategy_rays[i];
+    }
+}
+
+Image ProgressiveRenderer::image(int exponent) const {
+    return resolve(films_[exponent], counts());
+}
+
+Image ProgressiveRenderer::variance(int exponent) const {
+    return resolve_variance(films_[exponent], counts());
+}
+
+std::vector<ProgressiveRenderer::Layer> ProgressiveRenderer::layers() const {
+    std::vector<Layer> result;
+    for (int edges = 1; strategy_index({1, edges}) < layers_.size(); ++edges)
+        for (int s = 1; s <= edges + 1; ++s) {
+            const Strategy k{s, edges + 1 - s};
+            const size_t i = strategy_index(k);
+            if (i < layers_.size() && layers_[i]) result.push_back({k, layers_[i].get()});
+        }
+    return result;
+}
+
+RenderStatistics ProgressiveRenderer::statistics() const {
+    RenderStatistics r;
+    r.rays = totals_.rays;
+    r.fixed = totals_.fixed;
+    r.nonfinite = totals_.nonfinite;
+    r.clamped = totals_.clamped;
+    const int unit = films_.front().unit_exponent();
+    const double n = std::max(1.0, double(passes_) * double(estimator_.crop.area()));
+    for (int edges = 1; strategy_count(edges) < totals_.strategies.size(); ++edges)
+        for (int s = edges + 1; s >= 1; --s) {
+            const Strategy k{s, edges + 1 - s};
+            const StrategySums& sums = totals_.strategies[strategy_index(k)];
+            const std::uint64_t rays = totals_.strategy_rays[strategy_index(k)];
+            if (sums.samples == 0 && rays == 0) continue;
+            r.strategies.push_back({k, sums.samples, rays, from_fixed(sums.energy, unit) / n,
+                                    from_fixed(sums.second_moment, 2 * unit + 90) / n});
+        }
+    return r;
+}
+
+}  // namespace midway

@@ -1,0 +1,74 @@
+// The progressive renderer: runs whole passes (one sample of every pixel of the crop) on all threads.
+// Which thread computes what never shows in the result.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "render/film_record.h"
+#include "render/settings.h"
+
+namespace midway {
+
+struct RendererOptions {
+    int threads = 0;           // 0: all processors
+    int layer_edges = 0;       // > 0: strategy layers for paths of up to so many edges
+    bool statistics = false;   // per strategy
+};
+
+struct StrategyStatistics {
+    Strategy strategy;
+    std::uint64_t samples = 0, rays = 0;
+    double energy = 0, second_moment = 0;  // means per pixel and pass
+};
+
+struct RenderStatistics {
+    RayCounts rays;
+    FixedCounts fixed;
+    NonFinite nonfinite;
+    std::uint64_t clamped = 0;
+    std::vector<StrategyStatistics> strategies;  // those with rays or samples
+};
+
+class ProgressiveRenderer {
+  public:
+    // Keeps the scene alive.
+    ProgressiveRenderer(std::shared_ptr<const Scene> scene, const CameraDescription& camera,
+                        const RenderSettings& settings, const RendererOptions& options);
+
+    // Renders the next `count` passes and returns when all are in the film. `tick` is called about
+    // ten times a second by the calling thread with the share that is done.
+    void render_passes(std::uint64_t count, const std::function<void(double)>& tick = {});
+
+    std::uint64_t passes() const { return passes_; }
+    int threads() const { return threads_; }
+    const Estimator& estimator() const { return estimator_; }
+    const Film& film(int exponent = 0) const { return films_[exponent]; }
+    Image image(int exponent = 0) const;
+    Image variance(int exponent = 0) const;
+    RenderStatistics statistics() const;
+
+    struct Layer {
+        Strategy strategy;
+        const StrategyFilms* films;
+    };
+    std::vector<Layer> layers() const;
+    PassCounts counts() const { return pass_counts(0, passes_); }
+
+  private:
+    template <bool observed>
+    void work(std::atomic<std::uint64_t>& next, std::uint64_t items, WorkerSums& sums);
+    void merge(const WorkerSums& sums);
+
+    std::shared_ptr<const Scene> scene_;
+    Estimator estimator_;
+    int threads_ = 1;
+    std::uint64_t passes_ = 0;
+    std::vector<Film> films_;
+    std::vector<std::unique_ptr<StrategyFilms>> layers_;
+    FilmTargets targets_;
+    WorkerSums totals_;
+};
+
+}  // namespace midway

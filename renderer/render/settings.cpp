@@ -1,0 +1,95 @@
+#include "render/settings.h"
+
+#include <stdexcept>
+
+namespace midway {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, const std::string& where,
+                         const std::string& remedy) {
+    throw std::runtime_error(what + " (" + where + "); " + remedy);
+}
+
+template <class T, size_t N>
+T parse_word(std::string_view text, const std::pair<std::string_view, T> (&words)[N],
+             const std::string& option) {
+    std::string known;
+    for (const auto& [word, value] : words) {
+        if (word == text) return value;
+        known += (known.empty() ? "" : ", ") + std::string(word);
+    }
+    refuse("unknown word \"" + std::string(text) + "\"", option, "use one of " + known);
+}
+
+template <class T, size_t N>
+std::string_view word_of(T value, const std::pair<std::string_view, T> (&words)[N]) {
+    for (const auto& [word, v] : words)
+        if (v == value) return word;
+    return "";
+}
+
+constexpr std::pair<std::string_view, Technique> techniques[] = {
+    {"path", Technique::path}, {"light", Technique::light}, {"bdpt", Technique::bdpt}};
+constexpr std::pair<std::string_view, SamplerKind> samplers[] = {
+    {"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
+constexpr std::pair<std::string_view, FilterKind> filters[] = {
+    {"box", FilterKind::box},
+    {"gaussian", FilterKind::gaussian},
+    {"blackman-harris", FilterKind::blackman_harris}};
+
+}  // namespace
+
+std::string_view to_string(Technique t) { return word_of(t, techniques); }
+std::string_view to_string(SamplerKind k) { return word_of(k, samplers); }
+std::string_view to_string(FilterKind k) { return word_of(k, filters); }
+Technique parse_technique(std::string_view s) { return parse_word(s, techniques, "--technique"); }
+SamplerKind parse_sampler(std::string_view s) { return parse_word(s, samplers, "--sampler"); }
+FilterKind parse_filter(std::string_view s) { return parse_word(s, filters, "--filter"); }
+
+Families families_of(Technique t) {
+    switch (t) {
+        case Technique::path: return {true, true, false, false};
+        case Technique::light: return {false, false, true, false};
+        case Technique::bdpt: return {true, true, true, true};
+    }
+    return {};
+}
+
+Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
+                         const RenderSettings& s) {
+    if (s.width < 1 || s.height < 1 || s.width > 65536 || s.height > 65536)
+        refuse("image size out of range", "--size", "use 1x1 to 65536x65536");
+    if (s.exponents.empty() || s.exponents.size() > max_exponents)
+        refuse("wrong number of exponents", "--exponent",
+               "give 1 to " + std::to_string(max_exponents));
+    for (const double b : s.exponents)
+        if (!(b >= 0 && b <= 32)) refuse("exponent out of range", "--exponent", "use 0 to 32");
+    if (s.max_bounces < 0 || s.max_bounces > 10000)
+        refuse("number of bounces out of range", "--max-bounces", "use 0 to 10000");
+    Estimator e;
+    e.scene = &scene;
+    e.camera = make_camera(camera, scene.geometry->normalisation, s.width, s.height);
+    e.filter = make_filter(s.filter);
+    e.crop = s.crop.value_or(PixelRect{0, 0, s.width, s.height});
+    if (e.crop.x0 < 0 || e.crop.y0 < 0 || e.crop.x1 > s.width || e.crop.y1 > s.height ||
+        e.crop.width() < 1 || e.crop.height() < 1)
+        refuse("crop does not lie inside the image", "--crop",
+               "use X0,Y0,X1,Y1 with 0 <= X0 < X1 <= width, and the same for Y");
+    e.families = families_of(s.technique);
+    if (s.families) {
+        e.families.emitter_hit &= s.families->emitter_hit;
+        e.families.next_event &= s.families->next_event;
+        e.families.light_tracing &= s.families->light_tracing;
+        e.families.connection &= s.families->connection;
+    }
+    e.direct_lamps = s.technique == Technique::light;
+    e.exponent_count = static_cast<int>(s.exponents.size());
+    std::copy(s.exponents.begin(), s.exponents.end(), e.exponents.begin());
+    e.max_bounces = s.max_bounces;
+    e.seed = s.seed;
+    e.sampler = s.sampler;
+    e.light_subpaths = static_cast<std::uint64_t>(e.crop.area());
+    return e;
+}
+
+}  // namespace midway

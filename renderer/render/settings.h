@@ -1,0 +1,47 @@
+// What a person chooses about a render. All of it goes into films and image headers, so that every
+// picture says how it was made.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "integrator/walk.h"
+
+namespace midway {
+
+enum class Technique : std::uint8_t { path, light, bdpt };
+
+struct RenderSettings {
+    Technique technique = Technique::bdpt;
+    std::vector<double> exponents{2};
+    std::optional<Families> families;  // of the technique where absent
+    int width = 512, height = 512;
+    std::optional<PixelRect> crop;
+    int max_bounces = 16;
+    std::uint64_t seed = 0;
+    SamplerKind sampler = SamplerKind::sobol;
+    FilterKind filter = FilterKind::blackman_harris;
+    std::optional<float> clamp;  // largest component of a weighted contribution
+    std::vector<Strategy> only;  // where not empty: record these strategies alone
+    bool unweighted = false;     // record bare estimates
+};
+
+std::string_view to_string(Technique t);
+std::string_view to_string(SamplerKind k);
+std::string_view to_string(FilterKind k);
+
+// Throw std::runtime_error with one line for unknown words.
+Technique parse_technique(std::string_view text);
+SamplerKind parse_sampler(std::string_view text);
+FilterKind parse_filter(std::string_view text);
+
+// The families that a technique stands for.
+Families families_of(Technique t);
+
+// Checks the settings against each other and binds them to a scene and a camera. Light subpaths per
+// pass are as many as the crop has pixels.
+Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
+                         const RenderSettings& settings);
+
+}  // namespace midway

@@ -1,0 +1,165 @@
+#include "scene/accel.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#define MIDWAY_EMBREE4 1
+#else
+#include <embree3/rtcore.h>
+#define MIDWAY_EMBREE4 0
+#endif
+
+#include <stdexcept>
+#include <string>
+
+#include "math/hash.h"
+
+namespace midway {
+namespace {
+
+#if MIDWAY_EMBREE4
+using QueryContext = RTCRayQueryContext;
+void init_context(QueryContext* c) { rtcInitRayQueryContext(c); }
+#else
+using QueryContext = RTCIntersectContext;
+void init_context(QueryContext* c) { rtcInitIntersectContext(c); }
+#endif
+
+// What a filter needs to know about the ray it is called for. Embree hands the first member back.
+struct Query {
+    QueryContext embree;
+    const AlphaLookup* alpha = nullptr;
+    std::uint64_t coin = 0;
+    float transmittance = 1;
+};
+
+TriangleHit filter_hit(const RTCFilterFunctionNArguments* args) {
+    RTCHitN* hit = args->hit;
+    return {static_cast<int>(RTCHitN_geomID(hit, args->N, 0)),
+            static_cast<int>(RTCHitN_primID(hit, args->N, 0)), RTCHitN_u(hit, args->N, 0),
+            RTCHitN_v(hit, args->N, 0)};
+}
+
+// Walks: the coin says whether the ray meets this triangle.
+void flip_coin(const RTCFilterFunctionNArguments* args) {
+    const Query& q = *reinterpret_cast<const Query*>(args->context);
+    const TriangleHit hit = filter_hit(args);
+    const std::uint64_t place =
+        (static_cast<std::uint64_t>(hit.object) << 32) | static_cast<std::uint32_t>(hit.triangle);
+    const float u = to_unit_float(static_cast<std::uint32_t>(hash_combine(q.coin, place)));
+    if (u >= (*q.alpha)(hit)) args->valid[0] = 0;
+}
+
+// Connections: multiply, and go on unless nothing is left.
+void multiply_through(const RTCFilterFunctionNArguments* args) {
+    Query& q = *reinterpret_cast<Query*>(args->context);
+    const float alpha = (*q.alpha)(filter_hit(args));
+    if (alpha >= 1) return;
+    q.transmittance *= 1 - alpha;
+    args->valid[0] = 0;
+}
+
+RTCRay to_embree(const Ray& ray) {
+    RTCRay r{};
+    r.org_x = ray.origin.x;
+    r.org_y = ray.origin.y;
+    r.org_z = ray.origin.z;
+    r.dir_x = ray.direction.x;
+    r.dir_y = ray.direction.y;
+    r.dir_z = ray.direction.z;
+    r.tnear = 0;
+    r.tfar = ray.tfar;
+    r.mask = ~0u;
+    return r;
+}
+
+}  // namespace
+
+struct Accel::Embree {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    ~Embree() {
+        if (scene) rtcReleaseScene(scene);
+        if (device) rtcReleaseDevice(device);
+    }
+};
+
+Accel::Accel(std::shared_ptr<const Geometry> geometry)
+    : geometry_(std::move(geometry)), embree_(std::make_unique<Embree>()) {
+    Embree& e = *embree_;
+    e.device = rtcNewDevice(nullptr);
+    if (!e.device) throw std::runtime_error("Embree cannot start (device); check the processor");
+    e.scene = rtcNewScene(e.device);
+    // High quality was not deterministic; the robust flag closes the edges between triangles.
+    rtcSetSceneBuildQuality(e.scene, RTC_BUILD_QUALITY_MEDIUM);
+    int flags = RTC_SCENE_FLAG_ROBUST;
+#if !MIDWAY_EMBREE4
+    flags |= RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+    rtcSetSceneFlags(e.scene, static_cast<RTCSceneFlags>(flags));
+    for (size_t i = 0; i < geometry_->objects.size(); ++i) {
+        const Object& o = geometry_->objects[i];
+        RTCGeometry g = rtcNewGeometry(e.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* vertices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                 sizeof(vec3), o.positions.size());
+        void* indices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                sizeof(uvec3), o.triangles.size());
+        if (!vertices || !indices) {
+            rtcReleaseGeometry(g);
+            throw std::runtime_error("out of memory for triangles (object \"" + o.name +
+                                     "\"); use a smaller scene");
+        }
+        std::copy(o.positions.begin(), o.positions.end(), static_cast<vec3*>(vertices));
+        std::copy(o.triangles.begin(), o.triangles.end(), static_cast<uvec3*>(indices));
+        if (o.may_be_transparent) {
+            rtcSetGeometryIntersectFilterFunction(g, flip_coin);
+            rtcSetGeometryOccludedFilterFunction(g, multiply_through);
+        }
+        rtcCommitGeometry(g);
+        rtcAttachGeometryByID(e.scene, g, static_cast<unsigned>(i));
+        rtcReleaseGeometry(g);
+    }
+    rtcCommitScene(e.scene);
+    if (rtcGetDeviceError(e.device) != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree cannot build its tree (scene); use a smaller scene");
+}
+
+Accel::~Accel() = default;
+
+TriangleHit Accel::closest(const Ray& ray, const AlphaLookup& alpha, std::uint64_t coin) const {
+    Query q;
+    init_context(&q.embree);
+    q.alpha = &alpha;
+    q.coin = coin;
+    RTCRayHit r{};
+    r.ray = to_embree(ray);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if MIDWAY_EMBREE4
+    RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &q.embree;
+    rtcIntersect1(embree_->scene, &r, &args);
+#else
+    rtcIntersect1(embree_->scene, &q.embree, &r);
+#endif
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {static_cast<int>(r.hit.geomID), static_cast<int>(r.hit.primID), r.hit.u, r.hit.v};
+}
+
+float Accel::transmittance(const Ray& ray, const AlphaLookup& alpha) const {
+    Query q;
+    init_context(&q.embree);
+    q.alpha = &alpha;
+    RTCRay r = to_embree(ray);
+#if MIDWAY_EMBREE4
+    RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &q.embree;
+    rtcOccluded1(embree_->scene, &r, &args);
+#else
+    rtcOccluded1(embree_->scene, &q.embree, &r);
+#endif
+    // Embree marks an occluded ray by tfar = -inf.
+    return r.tfar < 0 ? 0.0f : q.transmittance;
+}
+
+}  // namespace midway

@@ -1,0 +1,49 @@
+// Ray queries against a Geometry. The only user of Embree is accel.cpp.
+//
+// Alpha is a probability: a walk's ray meets a transparent triangle with probability alpha, decided
+// by a hash of (coin, object, triangle), so that the answer depends neither on the order of traversal
+// nor on the thread; a connection is multiplied by 1 - alpha of everything that it crosses.
+#pragma once
+
+#include <limits>
+#include <memory>
+
+#include "scene/geometry.h"
+
+namespace midway {
+
+struct Ray {
+    vec3 origin{0};
+    vec3 direction{0, 0, 1};  // any length; tfar is in units of it
+    float tfar = std::numeric_limits<float>::infinity();
+};
+
+struct Scene;
+
+// Coverage at a hit of an object with may_be_transparent (defined in scene.cpp).
+struct AlphaLookup {
+    const Scene* scene = nullptr;
+    float operator()(const TriangleHit& hit) const;
+};
+
+class Accel {
+  public:
+    // Keeps the geometry alive. Throws std::runtime_error where Embree refuses.
+    explicit Accel(std::shared_ptr<const Geometry> geometry);
+    ~Accel();
+    Accel(const Accel&) = delete;
+    Accel& operator=(const Accel&) = delete;
+
+    // The first surface that the walk's ray meets; object < 0: none.
+    TriangleHit closest(const Ray& ray, const AlphaLookup& alpha, std::uint64_t coin) const;
+
+    // What arrives over the segment origin + [0, tfar] * direction: 0 where something opaque is hit.
+    float transmittance(const Ray& ray, const AlphaLookup& alpha) const;
+
+  private:
+    struct Embree;
+    std::shared_ptr<const Geometry> geometry_;
+    std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace midway

@@ -1,0 +1,85 @@
+#include "scene/geometry.h"
+
+#include <cstring>
+#include <map>
+#include <tuple>
+
+namespace midway {
+namespace {
+
+// Rounding steps that a position goes through (barycentric sum, Embree's plane test, the offset
+// itself), each worth half a unit in the last place of the largest number involved.
+constexpr float error_steps = 12;
+constexpr float half_ulp = 0x1p-24f;
+
+template <class T>
+T interpolate(const std::vector<T>& values, const uvec3& t, float b0, float b1, float b2) {
+    return values[t.x] * b0 + values[t.y] * b1 + values[t.z] * b2;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Object& o, const TriangleHit& hit) {
+    const uvec3& t = o.triangles[hit.triangle];
+    const vec3 &v0 = o.positions[t.x], &v1 = o.positions[t.y], &v2 = o.positions[t.z];
+    const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;
+    SurfacePoint p;
+    p.hit = hit;
+    p.position = v0 * b0 + v1 * b1 + v2 * b2;
+    const vec3 e1 = v1 - v0, e2 = v2 - v0;
+    const vec3 extent = glm::max(glm::abs(e1), glm::abs(e2));
+    p.error = error_steps * half_ulp *
+              (max_component(glm::abs(p.position)) + max_component(extent));
+    p.shading.ng = glm::normalize(glm::cross(e1, e2));
+    p.shading.normal = p.shading.ng;
+    p.shading.thin = !o.closed;
+    if (!o.normals.empty()) {
+        const vec3 n = interpolate(o.normals, t, b0, b1, b2);
+        const float len = glm::length(n);
+        if (len > 0) p.shading.normal = n / len;
+    }
+    if (!o.tangents.empty()) {
+        p.shading.tangent = interpolate(o.tangents, t, b0, b1, b2);
+        p.shading.tangent.w = o.tangents[t.x].w < 0 ? -1.0f : 1.0f;
+    }
+    for (int k = 0; k < 2; ++k)
+        if (!o.texcoords[k].empty()) p.shading.uv[k] = interpolate(o.texcoords[k], t, b0, b1, b2);
+    if (!o.colors.empty()) p.shading.color = interpolate(o.colors, t, b0, b1, b2);
+    return p;
+}
+
+vec3 offset_origin(const vec3& position, const vec3& ng, float error, const vec3& towards) {
+    return position + ng * std::copysign(error, glm::dot(ng, towards));
+}
+
+TriangleShape triangle_shape(const Object& o, int triangle) {
+    const uvec3& t = o.triangles[triangle];
+    const vec3 c = glm::cross(o.positions[t.y] - o.positions[t.x], o.positions[t.z] - o.positions[t.x]);
+    const float len = glm::length(c);
+    return {c / len, 0.5f * len};
+}
+
+bool is_closed_mesh(const std::vector<vec3>& positions, const std::vector<uvec3>& triangles) {
+    using Point = std::tuple<float, float, float>;
+    std::map<Point, int> ids;
+    std::map<std::pair<int, int>, int> edges;
+    const auto id = [&](std::uint32_t v) {
+        const vec3& p = positions[v];
+        return ids.emplace(Point(p.x, p.y, p.z), static_cast<int>(ids.size())).first->second;
+    };
+    for (const uvec3& t : triangles) {
+        const int v[3] = {id(t.x), id(t.y), id(t.z)};
+        for (int k = 0; k < 3; ++k) {
+            const int a = v[k], b = v[(k + 1) % 3];
+            if (a < b)
+                ++edges[{a, b}];
+            else
+                --edges[{b, a}];
+        }
+    }
+    for (const auto& [edge, balance] : edges)
+        if (balance != 0) return false;
+    return !triangles.empty();
+}
+
+}  // namespace midway

@@ -1,0 +1,228 @@
+#include "scene/light.h"
+
+#include "math/warp.h"
+#include "scene/scene.h"
+
+namespace midway {
+namespace {
+
+// KHR_lights_punctual: the square of a linear ramp in cos(theta) between the two cone angles.
+float spot_falloff(const Light& l, float cos_theta) {
+    if (cos_theta >= l.cos_inner) return 1;
+    if (cos_theta <= l.cos_outer) return 0;
+    return sqr((cos_theta - l.cos_outer) / (l.cos_inner - l.cos_outer));
+}
+
+// Integral of the falloff over cos(theta): the ramp gives a third of its width.
+float spot_integral(const Light& l) {
+    return (1 - l.cos_inner) + (l.cos_inner - l.cos_outer) / 3;
+}
+
+float spot_pdf_w(const Light& l, float cos_theta) {
+    return spot_falloff(l, cos_theta) / (2 * pi * spot_integral(l));
+}
+
+// cos(theta) in proportion to the falloff: on the ramp the cumulative is a cube.
+float sample_spot_cosine(const Light& l, float u) {
+    const float ramp = (l.cos_inner - l.cos_outer) / 3, all = spot_integral(l);
+    if (u * all < ramp)
+        return l.cos_outer + (l.cos_inner - l.cos_outer) * std::cbrt((u * all + 1e-9f * ramp) / ramp);
+    return l.cos_inner + std::min(1 - l.cos_inner, u * all - ramp);
+}
+
+float disc_pdf(const Scene& s) { return inv_pi / sqr(s.radius); }
+
+// The disc of the scene's bounds that faces `travel`, and a point on it.
+vec3 disc_point(const Scene& s, const vec3& travel, const vec2& u) {
+    const Frame f = frame_from_normal(travel);
+    const vec2 p = square_to_disc(u) * s.radius;
+    return f.s * p.x + f.t * p.y - travel * s.radius;
+}
+
+float emission_probability(const Scene& s, int light) {
+    return static_cast<float>(s.emission_pick.probability(light));
+}
+float next_event_probability(const Scene& s, int light) {
+    return static_cast<float>(s.next_event_pick.probability(light));
+}
+
+// Densities of a point on an area light with the emitted direction at cosine cos_theta.
+LightPdfs area_pdfs(const Scene& s, int light, float cos_theta) {
+    const Light& l = s.lights[light];
+    const float sides = l.two_sided ? 0.5f : 1.0f;
+    return {emission_probability(s, light) / l.area,
+            sides * cosine_hemisphere_pdf_w(std::abs(cos_theta)),
+            next_event_probability(s, light) / l.area};
+}
+
+LightPdfs sky_pdfs(const Scene& s, const vec3& direction) {
+    const float pdf_w = sky_pdf_w(*s.sky, direction);
+    return {emission_probability(s, s.sky_light) * pdf_w, disc_pdf(s),
+            next_event_probability(s, s.sky_light) * pdf_w};
+}
+
+SurfacePoint area_point(const Scene& s, const Light& l, const vec2& u) {
+    const vec2 b = square_to_triangle(u);
+    return surface_point(s.geometry->objects[l.object], {l.object, l.triangle, b.x, b.y});
+}
+
+// Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
+vec3 area_emission(const Scene& s, const SurfacePoint& p) {
+    const Material& m = material_at(s, p);
+    return material_emission(m, s.textures, p.shading) *
+           material_alpha(m, s.textures, p.shading);
+}
+
+EmissionSample emit_area(const Scene& s, int id, const EmissionNumbers& u) {
+    const Light& l = s.lights[id];
+    const SurfacePoint p = area_point(s, l, u.point);
+    vec2 ud = u.direction;
+    float side = 1;
+    if (l.two_sided) {
+        side = ud.x < 0.5f ? 1.0f : -1.0f;
+        ud.x = ud.x < 0.5f ? 2 * ud.x : 2 * ud.x - 1;
+    }
+    const vec3 local = square_to_cosine_hemisphere(ud);
+    EmissionSample e;
+    e.position = p.position;
+    e.error = p.error;
+    e.normal = p.shading.ng * side;
+    e.direction = frame_from_normal(e.normal).to_world(local);
+    e.cos_theta = local.z;
+    e.pdfs = area_pdfs(s, id, local.z);
+    e.weight = area_emission(s, p) * (local.z / (e.pdfs.origin * e.pdfs.leave));
+    return e;
+}
+
+EmissionSample emit_punctual(const Scene& s, int id, const EmissionNumbers& u) {
+    const Light& l = s.lights[id];
+    const float pick = emission_probability(s, id), pick_next = next_event_probability(s, id);
+    EmissionSample e;
+    if (l.kind == LightKind::directional) {
+        e.position = disc_point(s, l.direction, u.point);
+        e.direction = l.direction;
+        e.pdfs = {pick, disc_pdf(s), pick_next};
+        e.weight = l.emission / (pick * e.pdfs.leave);
+    } else if (l.kind == LightKind::point) {
+        e.position = l.position;
+        e.direction = square_to_sphere(u.direction);
+        e.pdfs = {pick, sphere_pdf_w, pick_next};
+        e.weight = l.emission / (pick * e.pdfs.leave);
+    } else {
+        const float c = sample_spot_cosine(l, u.direction.x);
+        e.position = l.position;
+        e.direction = frame_from_normal(l.direction).to_world(direction_from_z(c, u.direction.y));
+        e.pdfs = {pick, spot_pdf_w(l, c), pick_next};
+        e.weight = l.emission * (2 * pi * spot_integral(l) / pick);
+    }
+    e.normal = e.direction;
+    return e;
+}
+
+EmissionSample emit_sky(const Scene& s, const EmissionNumbers& u) {
+    const SkySample sample = sample_sky(*s.sky, u.direction);
+    EmissionSample e;
+    e.direction = -sample.direction;
+    e.position = disc_point(s, e.direction, u.point);
+    e.normal = e.direction;
+    e.pdfs = sky_pdfs(s, sample.direction);
+    e.weight = sky_radiance(*s.sky, sample.direction) / (e.pdfs.origin * e.pdfs.leave);
+    return e;
+}
+
+NextEventSample next_event_area(const Scene& s, int id, const vec3& reference, const vec2& u) {
+    const Light& l = s.lights[id];
+    const SurfacePoint p = area_point(s, l, u);
+    const vec3 d = p.position - reference;
+    NextEventSample n;
+    n.distance_squared = length_squared(d);
+    if (!(n.distance_squared > 0)) return n;
+    n.direction = d / std::sqrt(n.distance_squared);
+    const float c = -glm::dot(p.shading.ng, n.direction);
+    if (c == 0 || (c < 0 && !l.two_sided)) return n;
+    n.target = p.position;
+    n.normal = p.shading.ng;
+    n.error = p.error;
+    n.cos_theta = std::abs(c);
+    n.pdfs = area_pdfs(s, id, c);
+    n.value = area_emission(s, p) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
+    return n;
+}
+
+NextEventSample next_event_punctual(const Scene& s, int id, const vec3& reference) {
+    const Light& l = s.lights[id];
+    const float pick = emission_probability(s, id), pick_next = next_event_probability(s, id);
+    NextEventSample n;
+    if (l.kind == LightKind::directional) {
+        n.direction = -l.direction;
+        n.value = l.emission / pick_next;
+        n.pdfs = {pick, disc_pdf(s), pick_next};
+        return n;
+    }
+    const vec3 d = l.position - reference;
+    n.distance_squared = length_squared(d);
+    if (!(n.distance_squared > 0)) return n;
+    n.direction = d / std::sqrt(n.distance_squared);
+    n.target = l.position;
+    const float c = -glm::dot(n.direction, l.direction);
+    const bool spot = l.kind == LightKind::spot;
+    n.pdfs = {pick, spot ? spot_pdf_w(l, c) : sphere_pdf_w, pick_next};
+    n.value = l.emission * ((spot ? spot_falloff(l, c) : 1.0f) / (n.distance_squared * pick_next));
+    return n;
+}
+
+}  // namespace
+
+std::optional<EmissionSample> sample_emission(const Scene& s, const EmissionNumbers& u) {
+    if (!(s.emission_pick.total > 0)) return {};
+    const int id = sample_discrete(s.emission_pick, u.pick).index;
+    const LightKind kind = s.lights[id].kind;
+    EmissionSample e = kind == LightKind::area  ? emit_area(s, id, u)
+                       : kind == LightKind::sky ? emit_sky(s, u)
+                                                : emit_punctual(s, id, u);
+    e.light = id;
+    if (is_black(e.weight)) return {};
+    return e;
+}
+
+std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& reference,
+                                                 const vec3& u) {
+    if (!(s.next_event_pick.total > 0)) return {};
+    const int id = sample_discrete(s.next_event_pick, u.x).index;
+    const LightKind kind = s.lights[id].kind;
+    NextEventSample n;
+    if (kind == LightKind::area) {
+        n = next_event_area(s, id, reference, {u.y, u.z});
+    } else if (kind == LightKind::sky) {
+        n.direction = sample_sky(*s.sky, {u.y, u.z}).direction;
+        n.pdfs = sky_pdfs(s, n.direction);
+        n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
+    } else {
+        n = next_event_punctual(s, id, reference);
+    }
+    n.light = id;
+    if (is_black(n.value)) return {};
+    return n;
+}
+
+std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards) {
+    const int first = s.first_light[p.hit.object];
+    if (first < 0) return {};
+    const int id = first + p.hit.triangle;
+    const Light& l = s.lights[id];
+    const float c = glm::dot(p.shading.ng, towards);
+    if (c == 0 || (c < 0 && !l.two_sided) || !(l.power > 0)) return {};
+    // Coverage has been decided by the coin that let the ray hit.
+    const vec3 radiance = material_emission(material_at(s, p), s.textures, p.shading);
+    if (is_black(radiance)) return {};
+    return EmitterHit{radiance, area_pdfs(s, id, c)};
+}
+
+std::optional<EmitterHit> sky_hit(const Scene& s, const vec3& direction) {
+    if (s.sky_light < 0) return {};
+    const vec3 radiance = sky_radiance(*s.sky, direction);
+    if (is_black(radiance)) return {};
+    return EmitterHit{radiance, sky_pdfs(s, direction)};
+}
+
+}  // namespace midway

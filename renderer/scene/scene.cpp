@@ -1,0 +1,25 @@
+#include "scene/scene.h"
+
+namespace midway {
+
+float AlphaLookup::operator()(const TriangleHit& hit) const {
+    const Object& o = scene->geometry->objects[hit.object];
+    return material_alpha(scene->materials[o.material], scene->textures,
+                          surface_point(o, hit).shading);
+}
+
+std::optional<SurfacePoint> intersect(const Scene& s, const Ray& ray, std::uint64_t coin) {
+    const TriangleHit hit = s.accel->closest(ray, {&s}, coin);
+    if (hit.object < 0) return {};
+    return surface_point(s.geometry->objects[hit.object], hit);
+}
+
+float visibility(const Scene& s, const vec3& from, const vec3& to) {
+    return s.accel->transmittance({from, to - from, 1.0f}, {&s});
+}
+
+float visibility_to_infinity(const Scene& s, const vec3& from, const vec3& direction) {
+    return s.accel->transmittance({from, direction}, {&s});
+}
+
+}  // namespace midway

@@ -1,0 +1,75 @@
+// A scene frozen for tracing: const while any worker runs. build_scene() makes one from a
+// SceneDescription; the geometry, its tree and the textures are shared with the Scenes of later edits.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/accel.h"
+#include "scene/camera.h"
+#include "scene/light.h"
+#include "scene/scene_description.h"
+
+namespace midway {
+
+struct Scene {
+    std::shared_ptr<const Geometry> geometry;
+    std::shared_ptr<const Accel> accel;
+    std::vector<Material> materials;
+    TextureSet textures;
+    std::vector<Light> lights;
+    Distribution1D emission_pick;    // by power
+    Distribution1D next_event_pick;  // by power, with a share spread evenly
+    std::optional<Sky> sky;
+    int sky_light = -1;
+    std::vector<int> first_light;  // of each object: the light of its triangle 0, or -1
+    float radius = 1;              // of the bounding disc that infinite lights emit from
+    double total_power = 0;        // of all lights, mean of RGB, in scene units
+    bool has_transparency = false;
+};
+
+// Throws std::runtime_error with one line for a scene that cannot be traced. Lines for things that
+// were mended or left out are appended to `warnings`.
+Scene build_scene(const SceneDescription& description, std::vector<std::string>& warnings);
+
+// Bounds of all instances in the file's coordinates; empty where there is no geometry.
+struct Bounds {
+    dvec3 lower{0}, upper{0};
+};
+std::optional<Bounds> scene_bounds(const SceneDescription& description);
+
+// Hash of everything in a description and a camera that can change an image.
+std::uint64_t hash_scene(const SceneDescription& description, const CameraDescription& camera);
+
+// What a ray meets first; empty where it leaves the scene. `coin` decides about transparency.
+std::optional<SurfacePoint> intersect(const Scene& scene, const Ray& ray, std::uint64_t coin);
+
+// What passes between two points, each given with the offset that keeps the ray off its own surface.
+float visibility(const Scene& scene, const vec3& from, const vec3& to);
+// What passes from a point into the open.
+float visibility_to_infinity(const Scene& scene, const vec3& from, const vec3& direction);
+
+inline const Material& material_at(const Scene& scene, const SurfacePoint& p) {
+    return scene.materials[scene.geometry->objects[p.hit.object].material];
+}
+
+// u: 0 chooses the light, 1-2 the point, 3-4 the direction. Empty where the sample carries nothing.
+struct EmissionNumbers {
+    float pick = 0;
+    vec2 point{0}, direction{0};
+};
+std::optional<EmissionSample> sample_emission(const Scene& scene, const EmissionNumbers& u);
+
+// u.x chooses the light, u.yz the point on it.
+std::optional<NextEventSample> sample_next_event(const Scene& scene, const vec3& reference,
+                                                 const vec3& u);
+
+// What the surface emits towards `towards`, with its densities; empty where it emits nothing there.
+std::optional<EmitterHit> emitter_hit(const Scene& scene, const SurfacePoint& p,
+                                      const vec3& towards);
+
+// The same for a ray that left the scene in `direction`.
+std::optional<EmitterHit> sky_hit(const Scene& scene, const vec3& direction);
+
+}  // namespace midway
