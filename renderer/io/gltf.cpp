@@ -15,7 +15,7 @@ namespace {
 
 using namespace gltf;
 
-constexpr std::size_t max_instances = std::size_t{1} << 24;
+constexpr std::size_t max_instances = std::size_t{1} << 22;
 
 // A primitive as it was built: the id of its mesh, -1 where nothing is left of it.
 struct BuiltPrimitive {
@@ -56,6 +56,10 @@ std::string primitive_name(const Importer& importer, int mesh, std::size_t primi
 std::vector<dmat4> joint_matrices(Importer& importer, int skin_index) {
     Document& document = importer.document;
     const tinygltf::Skin& skin = at(document, document.model.skins, skin_index, "skin");
+    if (skin.joints.size() > document.elements_left) {
+        fail(document.path, "more than 2^29 joints", "split the scene");
+    }
+    document.elements_left -= skin.joints.size();
     std::vector<float> inverse_bind;
     if (skin.inverseBindMatrices >= 0) {
         inverse_bind = read_floats(document, skin.inverseBindMatrices, 16);
@@ -80,70 +84,96 @@ std::vector<dmat4> joint_matrices(Importer& importer, int skin_index) {
 BuiltPrimitive build_primitive(Importer& importer, int mesh, std::size_t index, int material,
                                const Deformation& deformation) {
     const tinygltf::Mesh& entry = importer.document.model.meshes[static_cast<std::size_t>(mesh)];
-    const TextureRef& normal_map =
-        importer.scene.materials[static_cast<std::size_t>(material)].normal_texture;
+    const Material& look = importer.scene.materials[static_cast<std::size_t>(material)];
+    const TextureRef& normal_map = look.normal_texture;
     std::optional<BuiltMesh> built = build_mesh(
         importer.document, entry.primitives[index], deformation,
         normal_map.used() ? normal_map.texcoord : -1, primitive_name(importer, mesh, index));
     if (!built) return {};
+    for (const int set : {0, 1}) {
+        if (uses_texcoord(look, set) &&
+            built->mesh.texcoords[static_cast<std::size_t>(set)].empty()) {
+            warn(importer.document, built->mesh.name + " lacks the texture coordinates " +
+                                        std::to_string(set) + " that its material uses");
+        }
+    }
     importer.scene.meshes.push_back(std::move(built->mesh));
     return {static_cast<int>(importer.scene.meshes.size()) - 1, built->world_origin};
 }
 
 void add_instance(Importer& importer, int node, const BuiltPrimitive& primitive, int material,
                   const dmat4& to_world) {
-    if (importer.scene.instances.size() >= max_instances) {
-        fail(importer.document.path, "more than 2^24 instances", "split the scene");
-    }
+    if (primitive.mesh < 0) return;
     Instance instance{node_name(importer.document, node), primitive.mesh, material, to_world};
     if (primitive.world_origin) {
         instance.to_world = dmat4(1.0);
         instance.to_world[3] = dvec4(*primitive.world_origin, 1);
     }
+    if (!usable_matrix(instance.to_world)) {
+        warn(importer.document, instance.name + " has an infinite transform; left out");
+        return;
+    }
+    if (importer.scene.instances.size() >= max_instances) {
+        fail(importer.document.path, "more than 2^22 instances", "split the scene");
+    }
     importer.scene.instances.push_back(std::move(instance));
 }
 
-// One use of a mesh under one matrix. A matrix that flattens the mesh has no inverse, so the mesh
-// itself is flattened; one that leaves nothing of it, or is not finite, shows nothing.
-void add_mesh_use(Importer& importer, int node, const dmat4& to_world, Deformation deformation) {
-    Document& document = importer.document;
-    const tinygltf::Node& entry = document.model.nodes[static_cast<std::size_t>(node)];
-    const tinygltf::Mesh& mesh = at(document, document.model.meshes, entry.mesh, "mesh");
-    if (!finite_matrix(to_world) && deformation.joints.empty()) {
-        warn(document, node_name(document, node) + " has an infinite transform; left out");
-        return;
-    }
-    const bool flat = glm::determinant(dmat3(to_world)) == 0;
-    if (flat && deformation.joints.empty()) deformation.bake = to_world;
-    const bool shared = deformation.joints.empty() && entry.weights.empty() && !flat;
+// A use of a mesh whose vertices differ from the mesh's own.
+void add_deformed_use(Importer& importer, int node, const dmat4& to_world,
+                      const Deformation& deformation) {
+    const tinygltf::Model& model = importer.document.model;
+    const int index = model.nodes[static_cast<std::size_t>(node)].mesh;
+    const tinygltf::Mesh& mesh = model.meshes[static_cast<std::size_t>(index)];
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
         const int material = use_material(importer, mesh.primitives[p].material);
-        BuiltPrimitive built;
-        if (shared) {
-            const auto key = std::make_pair(entry.mesh, static_cast<int>(p));
-            const auto [known, added] = importer.primitives.try_emplace(key);
-            if (added) {
-                known->second = build_primitive(importer, entry.mesh, p, material, deformation);
-            }
-            built = known->second;
-        } else {
-            built = build_primitive(importer, entry.mesh, p, material, deformation);
-        }
-        if (built.mesh >= 0) add_instance(importer, node, built, material, to_world);
+        const BuiltPrimitive built = build_primitive(importer, index, p, material, deformation);
+        add_instance(importer, node, built, material, to_world);
     }
 }
 
+// A use of a mesh as it is, which all such uses share.
+void add_shared_use(Importer& importer, int node, const dmat4& to_world) {
+    const tinygltf::Model& model = importer.document.model;
+    const int index = model.nodes[static_cast<std::size_t>(node)].mesh;
+    const tinygltf::Mesh& mesh = model.meshes[static_cast<std::size_t>(index)];
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+        const int material = use_material(importer, mesh.primitives[p].material);
+        const auto key = std::make_pair(index, static_cast<int>(p));
+        const auto [known, added] = importer.primitives.try_emplace(key);
+        if (added) {
+            known->second =
+                build_primitive(importer, index, p, material, {mesh.weights, {}, std::nullopt});
+        }
+        add_instance(importer, node, known->second, material, to_world);
+    }
+}
+
+// A skinned mesh stands where its joints are: neither its node nor instancing moves it. A matrix
+// that flattens a mesh has no inverse, so the mesh itself is flattened.
 void add_meshes(Importer& importer, int node) {
     Document& document = importer.document;
     const tinygltf::Node& entry = document.model.nodes[static_cast<std::size_t>(node)];
     if (entry.mesh < 0) return;
     const tinygltf::Mesh& mesh = at(document, document.model.meshes, entry.mesh, "mesh");
+    const dmat4& to_world = importer.tree.to_world[static_cast<std::size_t>(node)];
     Deformation deformation;
     deformation.weights = entry.weights.empty() ? mesh.weights : entry.weights;
     if (entry.skin >= 0) deformation.joints = joint_matrices(importer, entry.skin);
-    const dmat4& to_world = importer.tree.to_world[static_cast<std::size_t>(node)];
+    if (!deformation.joints.empty()) {
+        add_deformed_use(importer, node, to_world, deformation);
+        return;
+    }
+    const bool own_weights = deformation.weights != mesh.weights;
     for (const dmat4& matrix : mesh_transforms(document, node, to_world)) {
-        add_mesh_use(importer, node, matrix, deformation);
+        const bool flat = usable_matrix(matrix) && glm::determinant(dmat3(matrix)) == 0;
+        if (flat) deformation.bake = matrix;
+        if (!flat) deformation.bake.reset();
+        if (flat || own_weights) {
+            add_deformed_use(importer, node, matrix, deformation);
+        } else {
+            add_shared_use(importer, node, matrix);
+        }
     }
 }
 

@@ -103,7 +103,7 @@ Elements open_elements(Document& document, int index, int components) {
         fail(document.path, name + " has the wrong type for its use");
     }
     if (accessor.count > document.elements_left) {
-        fail(document.path, "more than 2^30 vertices and indices", "split the scene");
+        fail(document.path, "more than 2^29 vertices and indices", "split the scene");
     }
     document.elements_left -= accessor.count;
     out.stride = size;

@@ -30,7 +30,7 @@ struct ImageSource {
 
 // Elements of accessors that one file may make us read, all uses counted: a small file can use one
 // large accessor any number of times.
-inline constexpr std::uint64_t max_elements = 1ull << 30;
+inline constexpr std::uint64_t max_elements = 1ull << 29;
 
 struct Document {
     std::string path;

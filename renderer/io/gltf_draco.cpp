@@ -103,6 +103,9 @@ bool decode_primitive(RawDocument& document, Json& primitive, const Json& extens
     const Json* ids = find(extension, "attributes");
     const std::unique_ptr<draco::Mesh> mesh = decode_mesh(document, extension);
     if (!mesh || !attributes || !ids || !ids->is_object()) return false;
+    const std::uint64_t connectivity = std::uint64_t{12} * mesh->num_faces();
+    if (connectivity > bytes_left) return false;
+    bytes_left -= connectivity;
     std::map<std::string, int> decoded;
     for (const auto& [name, id] : ids->items()) {
         const Json* index = find(*attributes, name.c_str());

@@ -201,6 +201,16 @@ vec3 clamped_color(Document& document, const std::vector<double>& values, vec3 o
     return out;
 }
 
+bool uses_texcoord(const Material& material, int set) {
+    for (const TextureRef* texture :
+         {&material.base_color_texture, &material.metallic_roughness_texture,
+          &material.normal_texture, &material.emission_texture, &material.transmission_texture,
+          &material.specular_texture, &material.specular_color_texture}) {
+        if (texture->used() && texture->texcoord == set) return true;
+    }
+    return false;
+}
+
 Material convert_material(Document& document, ImageTable& images, int material,
                           SceneDescription& scene) {
     Material out;

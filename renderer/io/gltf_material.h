@@ -12,6 +12,9 @@ namespace midway::gltf {
 Material convert_material(Document& document, ImageTable& images, int material,
                           SceneDescription& scene);
 
+// Whether a texture of the material reads this set of texture coordinates.
+bool uses_texcoord(const Material& material, int set);
+
 // A number of the file as float; clamped to [low, high] with a warning that names `what`.
 float clamped(Document& document, double value, double low, double high, const std::string& what);
 

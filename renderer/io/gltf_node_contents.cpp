@@ -47,7 +47,7 @@ void add_camera(Document& document, int node, const dmat4& to_world, SceneDescri
         return;
     }
     const double yfov = camera.perspective.yfov;
-    if (!(yfov > 0 && yfov < std::numbers::pi) || !finite_matrix(to_world)) {
+    if (!(yfov > 0 && yfov < std::numbers::pi) || !usable_matrix(to_world)) {
         warn(document, "camera \"" + name + "\" has an impossible angle or place; left out");
         return;
     }
@@ -77,7 +77,7 @@ void add_light(Document& document, int node, const dmat4& to_world, SceneDescrip
         warn(document, name + " is of an unknown type; left out");
         return;
     }
-    if (!finite_matrix(to_world)) {
+    if (!usable_matrix(to_world)) {
         warn(document, name + " has an impossible place; left out");
         return;
     }

@@ -136,9 +136,10 @@ dmat4 compose(const dvec3& translation, const dvec4& rotation, const dvec3& scal
     return out;
 }
 
-bool finite_matrix(const dmat4& matrix) {
+bool usable_matrix(const dmat4& matrix) {
+    constexpr double largest = 1e18;
     for (int i = 0; i < 16; ++i) {
-        if (!std::isfinite(matrix[i / 4][i % 4])) return false;
+        if (!(std::abs(matrix[i / 4][i % 4]) <= largest)) return false;
     }
     return true;
 }

@@ -19,7 +19,8 @@ NodeTree build_node_tree(Document& document);
 // T * R * S in double; `rotation` is a quaternion x, y, z, w and need not be of unit length.
 dmat4 compose(const dvec3& translation, const dvec4& rotation, const dvec3& scale);
 
-bool finite_matrix(const dmat4& matrix);
+// Whether all elements are finite and small enough for the renderer's floats.
+bool usable_matrix(const dmat4& matrix);
 
 // The cameras and lights that a shown node carries.
 void add_camera(Document& document, int node, const dmat4& to_world, SceneDescription& scene);

@@ -156,6 +156,13 @@ TEST(GltfMaterial, ImageIsDecodedOnceHoweverOftenItIsUsed) {
     EXPECT_EQ(scene.images.size(), 1u);
 }
 
+TEST(GltfMaterial, TextureWithoutItsCoordinatesIsAWarning) {
+    GltfFile file;
+    const int texture = add_texture(file, png_uri());
+    const SceneDescription scene = load_material(file, {{"emissiveTexture", {{"index", texture}}}});
+    EXPECT_TRUE(mentions(scene.warnings, "lacks the texture coordinates 0"));
+}
+
 TEST(GltfMaterial, MissingImageLeavesTheTextureOut) {
     GltfFile file;
     const int texture = add_texture(file, {{"uri", "absent.png"}});
