@@ -24,17 +24,19 @@ namespace {
 struct Source {
     std::ifstream in;
     int64_t size = 0;
+    bool in_pixels = false;  // the header is known to be whole
     bool cut_short = false;  // the decoder asked for more than there is
 };
 
-// Hands bytes to the decoder. Past the end it gets 0xFF for ever and the cut is noted: stb_image
-// takes the end of the data for zeros, and run lengths of zero never end. It reads ahead by whole
-// buffers, where getting less is no fault, and by at most one pixel of four bytes, where it is.
+// Hands bytes to the decoder. In the header it is told of the end. In the pixels it is not, since
+// it takes an end for zeros, and run lengths of zero never end: it gets 0xFF for ever and the cut
+// is noted. It reads ahead by whole buffers, where getting less is no fault, and by at most one
+// pixel of four bytes, where it is.
 int read_bytes(void* user, char* data, int size) {
     Source& source = *static_cast<Source*>(user);
     source.in.read(data, size);
     const int got = static_cast<int>(source.in.gcount());
-    if (got == size || (got > 0 && size > 4)) return got;
+    if (got == size || (got > 0 && size > 4) || !source.in_pixels) return got;
     source.cut_short = true;
     std::memset(data + got, 0xFF, static_cast<size_t>(size - got));
     return size;
@@ -58,7 +60,6 @@ int64_t least_size(int64_t width, int64_t height) {
 void rewind(Source& source) {
     source.in.clear();
     source.in.seekg(0);
-    source.cut_short = false;
 }
 
 Image decode(Source& source) {
@@ -72,6 +73,7 @@ Image decode(Source& source) {
     if (source.size < least_size(width, height)) throw std::runtime_error("the file is cut short");
 
     rewind(source);
+    source.in_pixels = true;
     std::unique_ptr<float, void (*)(void*)> values(
         stbi_loadf_from_callbacks(&callbacks, &source, &width, &height, &channels, 3),
         stbi_image_free);

@@ -63,22 +63,23 @@ double mean_luminance(const Image& image, const std::vector<size_t>& counted) {
     return sum / static_cast<double>(counted.size());
 }
 
-// Mean of all but the largest 0.1 %. Of values equal to the smallest one left out it does not
-// matter which go, so the sum can run in the given order.
+// Mean of all but the largest 0.1 %, summed in the given order. Of values equal to the largest one
+// kept, the first stay.
 double trimmed_mean(const std::vector<double>& values) {
     const size_t kept = values.size() - values.size() / 1000;
     std::vector<double> sorted = values;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(kept - 1),
                      sorted.end());
-    const double largest_kept = sorted[kept - 1];
+    const double limit = sorted[kept - 1];
+    size_t equal = kept;
+    for (double v : values)
+        if (v < limit) --equal;
     double sum = 0;
-    size_t below = 0;
     for (double v : values) {
-        if (!(v < largest_kept)) continue;
+        if (v > limit || (v == limit && equal == 0)) continue;
+        if (v == limit) --equal;
         sum += v;
-        ++below;
     }
-    if (kept > below) sum += static_cast<double>(kept - below) * largest_kept;
     return sum / static_cast<double>(kept);
 }
 
