@@ -44,9 +44,9 @@ class CliTest(unittest.TestCase):
         """A short render of the tiny scene."""
         return self.run_midway("render", self.scene, "--size", size, *arguments, **options)
 
-    def render_exr(self, name, *arguments, **options):
+    def render_exr(self, name, *arguments, seed=5, **options):
         path = self.out / f"{name}.exr"
-        self.render("-o", path, "--seed", 5, *arguments, **options)
+        self.render("-o", path, "--seed", seed, *arguments, **options)
         return path
 
     def refused(self, *arguments, status, seconds=15):

@@ -25,7 +25,7 @@ class Diff(CliTest):
     def setUp(self):
         super().setUp()
         self.a = self.render_exr("a", "--spp", 2)
-        self.b = self.render_exr("b", "--spp", 3, "--seed", 6)
+        self.b = self.render_exr("b", "--spp", 3, seed=6)
 
     def diff(self, *arguments, **options):
         return json.loads(self.run_midway("diff", *arguments, "--json", **options).stdout)

@@ -99,7 +99,7 @@ class SameBits(CliTest):
         self.assertEqual(films[0], films[2])
 
     def test_twice_and_others_for_another_seed(self):
-        first, again, other = (ExrFile(self.render_exr(name, "--spp", 2, "--seed", seed)).chunks
+        first, again, other = (ExrFile(self.render_exr(name, "--spp", 2, seed=seed)).chunks
                                for name, seed in [("a", 1), ("b", 1), ("c", 2)])
         self.assertEqual(first, again)
         self.assertNotEqual(first, other)
