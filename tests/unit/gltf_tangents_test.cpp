@@ -67,7 +67,7 @@ TEST(Tangents, WithoutUsableCoordinatesAreStillUnitAndPerpendicular) {
     }
 }
 
-// The file's tangents were made by its exporter with MikkTSpace.
+// The file brings its own tangents; how its exporter made them is not recorded.
 TEST(Tangents, AgreeWithThoseOfAnExporter) {
     MIDWAY_SKIP_WITHOUT_SHARED("scenes/FlightHelmet/FlightHelmet.gltf");
     const SceneDescription scene =
