@@ -18,7 +18,7 @@ class Hasher {
             state_ = hash_combine(state_, word);
         }
         std::uint64_t tail = 0;
-        std::memcpy(&tail, p, n);
+        if (n > 0) std::memcpy(&tail, p, n);  // an empty array may have no address
         state_ = hash_combine(state_, tail + n);
     }
     template <class T>
