@@ -33,7 +33,8 @@ vec3 to_world(const Bsdf& b, vec3 l, bool front) {
     return b.frame.to_world(l);
 }
 
-float eta_from(const Bsdf& b, bool front) { return front ? b.eta : 1 / b.eta; }
+// A thin sheet has the same medium on both sides: rays enter it from either.
+float eta_from(const Bsdf& b, bool front) { return front || b.thin ? b.eta : 1 / b.eta; }
 
 // What the coat leaves over for the diffuse lobe in direction cosine mu.
 float below_coat(const Bsdf& b, float mu) {
@@ -81,14 +82,13 @@ float glass_reflectance(const Bsdf& b, float cos_h, float eta) {
 void add_diffuse(const Bsdf& b, const LocalPair& p, const LobeChoice& from, const LobeChoice& to,
                  BsdfEval& e) {
     const float mu_f = std::abs(p.from.z), mu_t = std::abs(p.to.z);
-    e.f += b.diffuse *
-           (inv_pi * below_coat(b, mu_f) * below_coat(b, mu_t) * coat_normalisation(b));
+    e.f += b.diffuse * (inv_pi * below_coat(b, mu_f) * below_coat(b, mu_t) * coat_normalisation(b));
     e.pdf_fwd_w += from.diffuse * cosine_hemisphere_pdf_w(mu_t);
     e.pdf_rev_w += to.diffuse * cosine_hemisphere_pdf_w(mu_f);
 }
 
-// Mirror-like microfacet lobes of the pair (w, v), both above the surface; `share` scales the value,
-// the two probabilities the densities.
+// Mirror-like microfacet lobes of the pair (w, v), both above the surface; `share` scales the
+// value, the two probabilities the densities.
 void add_facet_reflection(const Bsdf& b, const vec3& w, const vec3& v, const vec3& h,
                           const vec3& share, float probability_w, float probability_v,
                           BsdfEval& e) {
@@ -118,8 +118,8 @@ void add_refraction(const Bsdf& b, const LocalPair& p, float choice_from, float 
             (p.from.z * below.z));
     e.pdf_fwd_w += choice_from * transmitted * ggx_g1(p.from, b.alpha) * d * cf / p.from.z * -ct *
                    sqr(p.eta) * inv_denominator;
-    e.pdf_rev_w += choice_to * transmitted * ggx_g1(below, b.alpha) * d * -ct / below.z * cf *
-                   inv_denominator;
+    e.pdf_rev_w +=
+        choice_to * transmitted * ggx_g1(below, b.alpha) * d * -ct / below.z * cf * inv_denominator;
 }
 
 // Sums the lobes that are not deltas, with f_s and not yet the shading-normal factor.
@@ -209,7 +209,8 @@ std::optional<BsdfSample> sample_smooth_glass(const Bsdf& b, const vec3& from, c
                         b.thin ? 1 : eta, transport);
 }
 
-// A direction of the rough lobes in the local frame; empty where the facet turns it to the wrong side.
+// A direction of the rough lobes in the local frame; empty where the facet turns it to the wrong
+// side.
 std::optional<vec3> sample_facet(const Bsdf& b, const vec3& l, bool front, bool glass,
                                  const vec3& u) {
     const vec3 h = sample_ggx_visible(l, b.alpha, vec2(u));
