@@ -1,0 +1,69 @@
+#include "support/oracle.h"
+
+#include <cmath>
+#include <limits>
+
+namespace midway::test {
+namespace {
+
+constexpr long double minus_infinity = -std::numeric_limits<long double>::infinity();
+
+long double log_of(double x) {
+    return x > 0 ? std::log(static_cast<long double>(x)) : minus_infinity;
+}
+
+}  // namespace
+
+bool is_feasible(const FullPath& p, const Strategy& k, const OracleSetting& setting) {
+    const int last = p.edges();
+    if (last - 1 > setting.max_bounces || k.s < 1 || k.t < 0 || k.edges() != last) return false;
+    switch (family_of(k)) {
+        case Family::emitter_hit:
+            return setting.families.emitter_hit && p.hittable;
+        case Family::next_event:
+            return setting.families.next_event && !p.vertices[last - 1].delta;
+        case Family::light_tracing:
+            return setting.families.light_tracing && !p.vertices[1].delta;
+        case Family::connection:
+            return setting.families.connection && !p.vertices[k.s - 1].delta &&
+                   !p.vertices[k.s].delta;
+    }
+    return false;
+}
+
+long double log_density(const FullPath& p, const Strategy& k, const OracleSetting& setting) {
+    if (!is_feasible(p, k, setting)) return minus_infinity;
+    const int last = p.edges();
+    long double sum = k.s == 1 ? log_of(setting.light_subpaths) : 0.0L;
+    for (int i = 1; i < k.s; ++i)
+        sum += log_of(p.vertices[i].camera_w) + log_of(p.vertices[i].camera_g);
+    for (int i = k.s; i < last; ++i)
+        sum += log_of(p.vertices[i].light_w) + log_of(p.vertices[i].light_g);
+    if (k.t == 1) sum += log_of(p.next_event);
+    if (k.t >= 2) sum += log_of(p.emission);
+    return sum;
+}
+
+std::vector<double> direct_weights(const FullPath& p, const OracleSetting& setting,
+                                   double exponent) {
+    const int last = p.edges();
+    std::vector<long double> logs(last + 1);
+    long double largest = minus_infinity;
+    for (int s = 1; s <= last + 1; ++s) {
+        logs[s - 1] = log_density(p, {s, last + 1 - s}, setting);
+        largest = std::max(largest, logs[s - 1]);
+    }
+    std::vector<double> weights(last + 1, 0.0);
+    if (largest == minus_infinity) return weights;
+    long double sum = 0;
+    for (long double& l : logs) {
+        // Infeasible strategies stay out for exponent 0 too.
+        l = l == minus_infinity ? 0.0L
+                                : std::exp(static_cast<long double>(exponent) * (l - largest));
+        sum += l;
+    }
+    for (size_t i = 0; i < logs.size(); ++i) weights[i] = static_cast<double>(logs[i] / sum);
+    return weights;
+}
+
+}  // namespace midway::test

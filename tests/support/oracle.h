@@ -1,0 +1,53 @@
+// The oracle of MIS weights: the direct product form, eq. (4)-(10) of the seed document, in
+// logarithms and long double. It shares no code with integrator/mis.h, which it judges.
+//
+// A path of k edges has vertices 0 (lens) to k (light). Vertex i is made from the camera's side
+// with density camera_w * camera_g and from the light's side with light_w * light_g, eq. (1)-(3),
+// (5)-(7); w is per solid angle (behind a delta vertex the coefficient of its Dirac factor), g =
+// cos / d^2 at the vertex. An infinite light's vertex k is a direction: camera_g[k] = 1,
+// light_g[k-1] = cos (35-38).
+#pragma once
+
+#include <vector>
+
+#include "integrator/strategy.h"
+
+namespace midway::test {
+
+struct VertexPdfs {
+    double camera_w = 1,
+           camera_g = 1;              // of this vertex, made from its neighbour towards the camera
+    double light_w = 1, light_g = 1;  // made from its neighbour towards the light
+    bool delta = false;               // the path scatters here by a delta lobe
+};
+
+struct FullPath {
+    std::vector<VertexPdfs> vertices;
+    double emission = 1;    // density of vertex k where a light subpath starts
+    double next_event = 1;  // where next event chooses it
+    bool hittable = true;   // not a delta light
+
+    int edges() const { return static_cast<int>(vertices.size()) - 1; }
+    double from_camera(int i) const { return vertices[i].camera_w * vertices[i].camera_g; }
+    double from_light(int i) const { return vertices[i].light_w * vertices[i].light_g; }
+};
+
+struct OracleSetting {
+    Families families;
+    double light_subpaths = 1;
+    int max_bounces = 1000;
+};
+
+// Can this strategy make the path at all? (2,0) and (1,1) are no strategies of weighted paths.
+bool is_feasible(const FullPath& path, const Strategy& strategy, const OracleSetting& setting);
+
+// log(n p) of eq. (9) with the number of samples of eq. (22); -infinity where not feasible.
+long double log_density(const FullPath& path, const Strategy& strategy,
+                        const OracleSetting& setting);
+
+// Eq. (10) for every strategy of the path: element s - 1 belongs to (s, k + 1 - s). All zero where
+// no strategy is feasible. Needs at least two edges.
+std::vector<double> direct_weights(const FullPath& path, const OracleSetting& setting,
+                                   double exponent);
+
+}  // namespace midway::test

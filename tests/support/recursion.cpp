@@ -1,0 +1,89 @@
+#include "support/recursion.h"
+
+namespace midway::test {
+namespace {
+
+// Sums at the vertices of the camera's subpath; element i belongs to vertex i.
+template <class H>
+std::vector<mis::State> camera_states(const H& h, const FullPath& p, const mis::Setting& setting) {
+    const int last = p.edges();
+    std::vector<mis::State> states(last + 1);
+    states[1] = mis::start_camera(h, setting.light_subpaths, p.from_camera(1));
+    for (int i = 2; i <= last; ++i)
+        states[i] =
+            mis::advance(h, states[i - 1],
+                         {p.from_camera(i), p.vertices[i - 1].light_g, p.vertices[i - 2].light_w,
+                          p.vertices[i - 1].delta, setting.has({i - 1, 2})});
+    return states;
+}
+
+// The same from the light; element j belongs to vertex k - j.
+template <class H>
+std::vector<mis::State> light_states(const H& h, const FullPath& p, const mis::Setting& setting) {
+    const int last = p.edges();
+    std::vector<mis::State> states(last);
+    mis::LightStart start;
+    start.pdf_origin = p.emission;
+    start.pdf_a = p.from_light(last - 1);
+    start.g_light = p.vertices[last].camera_g;
+    start.next_event_ratio = p.next_event / p.emission;
+    start.hittable = p.hittable;
+    states[1] = mis::start_light(h, start, setting);
+    for (int j = 2; j < last; ++j) {
+        const int i = last - j;
+        states[j] =
+            mis::advance(h, states[j - 1],
+                         {p.from_light(i), p.vertices[i + 1].camera_g, p.vertices[i + 2].camera_w,
+                          p.vertices[i + 1].delta, setting.has({2, j - 1})});
+    }
+    return states;
+}
+
+template <class H>
+double weigh(const H& h, const FullPath& c, const FullPath& l, const mis::Setting& setting,
+             const Strategy& k, const std::vector<mis::State>& from_camera,
+             const std::vector<mis::State>& from_light) {
+    const int s = k.s;
+    const mis::State camera = from_camera[s - 1];
+    if (k.t == 0)
+        return mis::emitter_hit(h, camera,
+                                {c.emission, c.vertices[s - 2].light_w, c.next_event,
+                                 s > 2 && setting.has({s - 1, 1})});
+    const double towards_camera = l.vertices[s - 1].light_w * c.vertices[s - 1].light_g;
+    const double towards_light = c.vertices[s].camera_w * c.vertices[s].camera_g;
+    if (s == 1)
+        return mis::light_tracing(
+            h, from_light[k.t - 1],
+            {towards_light, l.vertices[2].camera_w, setting.has({2, k.t - 1})},
+            setting.light_subpaths);
+    const mis::Side camera_side{towards_camera, c.vertices[s - 2].light_w,
+                                setting.has({s - 1, k.t + 1})};
+    if (k.t == 1)
+        return mis::next_event(
+            h, camera, camera_side,
+            {c.next_event, c.emission, towards_light, c.hittable && setting.families.emitter_hit});
+    const mis::Side light_side{towards_light, l.vertices[s + 1].camera_w,
+                               setting.has({s + 1, k.t - 1})};
+    return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side);
+}
+
+}  // namespace
+
+std::vector<double> recursive_weights(const FullPath& camera, const FullPath& light,
+                                      const OracleSetting& setting, double exponent) {
+    const int last = camera.edges();
+    const mis::Setting inner{setting.families, setting.light_subpaths};
+    return mis::with_heuristic(exponent, [&](const auto& h) {
+        const std::vector<mis::State> from_camera = camera_states(h, camera, inner);
+        const std::vector<mis::State> from_light = light_states(h, light, inner);
+        std::vector<double> weights(last + 1, 0.0);
+        for (int s = 1; s <= last + 1; ++s) {
+            const Strategy k{s, last + 1 - s};
+            if (is_feasible(camera, k, setting))
+                weights[s - 1] = weigh(h, camera, light, inner, k, from_camera, from_light);
+        }
+        return weights;
+    });
+}
+
+}  // namespace midway::test

@@ -1,0 +1,171 @@
+// The recursion of integrator/mis.h against the direct form, with no scene at all: made-up
+// densities of every size, delta vertices, families taken out, several light subpaths, and next
+// event and emission that choose points by different densities.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/oracle.h"
+#include "support/recursion.h"
+#include "support/tier.h"
+
+namespace midway::test {
+namespace {
+
+constexpr double exponents[] = {0, 0.5, 1, 2, 8, 32};
+
+struct MadeUp {
+    double low = -6, high = 6;  // decades of each density and of each g
+    int edges = 15;
+    double deltas = 0.25;
+    bool hittable = true;
+};
+
+FullPath make_up(std::mt19937_64& random, const MadeUp& m) {
+    std::uniform_real_distribution<double> decade(m.low, m.high), unit(0, 1);
+    const auto number = [&] { return std::pow(10.0, decade(random)); };
+    FullPath p;
+    p.vertices.resize(m.edges + 1);
+    for (int i = 0; i <= m.edges; ++i) {
+        VertexPdfs& v = p.vertices[i];
+        v = {number(), number(), number(), number()};
+        v.delta = i > 0 && i < m.edges && unit(random) < m.deltas;
+    }
+    p.emission = number();
+    p.next_event = number();
+    p.hittable = m.hittable;
+    return p;
+}
+
+double sum_of(const std::vector<double>& weights) {
+    double sum = 0;
+    for (const double w : weights) sum += w;
+    return sum;
+}
+
+void expect_same(const FullPath& p, const OracleSetting& setting) {
+    for (const double b : exponents) {
+        const std::vector<double> expected = direct_weights(p, setting, b);
+        const std::vector<double> found = recursive_weights(p, p, setting, b);
+        const bool any = sum_of(expected) > 0;
+        ASSERT_NEAR(sum_of(expected), any ? 1 : 0, 1e-9);
+        ASSERT_NEAR(sum_of(found), any ? 1 : 0, 1e-9)
+            << "b " << b << ", " << p.edges() << " edges, families " << to_string(setting.families);
+        for (size_t i = 0; i < expected.size(); ++i)
+            ASSERT_NEAR(found[i], expected[i], 1e-9)
+                << "b " << b << ", strategy " << describe({int(i) + 1, p.edges() - int(i)})
+                << ", families " << to_string(setting.families);
+    }
+}
+
+Families families_of_bits(unsigned bits) {
+    return {(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
+}
+
+// Densities of 1e-6 to 1e6 per solid angle and as much again for g: 1e-12 to 1e12 per area.
+TEST(MisRecursion, EqualsTheDirectFormForMadeUpDensities) {
+    std::mt19937_64 random(1);
+    for (int i = 0; i < by_tier(20000, 400000); ++i) {
+        MadeUp m;
+        m.edges = 2 + int(random() % 14);
+        m.deltas = i % 3 * 0.25;
+        m.hittable = random() % 4 != 0;
+        OracleSetting setting;
+        setting.families = families_of_bits(1 + random() % 15);
+        if (i % 2) setting.families = {};
+        setting.light_subpaths = i % 5 ? std::pow(10.0, double(random() % 7)) : 1;
+        ASSERT_NO_FATAL_FAILURE(expect_same(make_up(random, m), setting)) << "path " << i;
+    }
+}
+
+TEST(MisRecursion, HoldsForEverySubsetOfFamilies) {
+    std::mt19937_64 random(2);
+    for (unsigned bits = 1; bits < 16; ++bits)
+        for (int i = 0; i < 400; ++i) {
+            MadeUp m;
+            m.low = -2;
+            m.high = 2;
+            m.edges = 2 + i % 7;
+            m.deltas = i % 2 * 0.2;
+            m.hittable = i % 3 != 0;
+            OracleSetting setting;
+            setting.families = families_of_bits(bits);
+            setting.light_subpaths = 17;
+            ASSERT_NO_FATAL_FAILURE(expect_same(make_up(random, m), setting));
+        }
+}
+
+// A light picked a thousand times more often by one of the two, in paths where both matter.
+TEST(MisRecursion, TellsNextEventsDensityFromEmissions) {
+    std::mt19937_64 random(3);
+    for (int i = 0; i < 2000; ++i) {
+        MadeUp m;
+        m.low = -0.3;
+        m.high = 0.3;
+        m.edges = 2 + i % 5;
+        m.deltas = 0;
+        FullPath p = make_up(random, m);
+        p.emission = 0.5;
+        p.next_event = p.emission * std::pow(10.0, i % 7 - 3);
+        ASSERT_NO_FATAL_FAILURE(expect_same(p, {}));
+    }
+}
+
+// Every density the same: the weights are the shares of the sample counts.
+TEST(MisRecursion, CountsTheSamplesOfLightTracing) {
+    FullPath p;
+    p.vertices.resize(5);
+    OracleSetting setting;
+    setting.light_subpaths = 1000;
+    const std::vector<double> w = recursive_weights(p, p, setting, 1);
+    EXPECT_NEAR(w[0], 1000.0 / 1004, 1e-12);
+    for (int s = 2; s <= 5; ++s) EXPECT_NEAR(w[s - 1], 1.0 / 1004, 1e-12);
+}
+
+TEST(MisRecursion, NaiveWeightsAreUniformOverFeasibleStrategies) {
+    std::mt19937_64 random(4);
+    MadeUp m;
+    m.edges = 5;
+    m.deltas = 0;
+    FullPath p = make_up(random, m);
+    OracleSetting setting;
+    setting.light_subpaths = 64;
+    for (const double w : recursive_weights(p, p, setting, 0)) EXPECT_NEAR(w, 1.0 / 6, 1e-12);
+    p.hittable = false;          // five are left
+    p.vertices[2].delta = true;  // its two edges cannot connect: three are left
+    const std::vector<double> w = recursive_weights(p, p, setting, 0);
+    const double expected[] = {1.0 / 3, 0, 0, 1.0 / 3, 1.0 / 3, 0};
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(w[i], expected[i], 1e-12) << i;
+}
+
+// A strategy that never draws the path (density zero) counts as infeasible, for exponent 0 as well.
+TEST(MisRecursion, LeavesOutStrategiesOfZeroDensity) {
+    FullPath p;
+    p.vertices.resize(5);
+    p.vertices[4].camera_w = 0;  // the camera's walk never finds the light
+    for (const double b : exponents) {
+        const std::vector<double> expected = direct_weights(p, {}, b);
+        const std::vector<double> found = recursive_weights(p, p, {}, b);
+        for (int i = 0; i < 4; ++i) EXPECT_NEAR(found[i], expected[i], 1e-12) << b;
+    }
+}
+
+TEST(MisRecursion, NoRangeOfDensitiesOverflows) {
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 2000; ++i) {
+        MadeUp m;
+        m.low = -10;
+        m.high = 10;
+        m.deltas = 0;
+        const FullPath p = make_up(random, m);
+        for (const double b : {0.5, 3.0, 8.0, 32.0}) {
+            const std::vector<double> expected = direct_weights(p, {}, b);
+            const std::vector<double> found = recursive_weights(p, p, {}, b);
+            for (size_t s = 0; s < found.size(); ++s) ASSERT_NEAR(found[s], expected[s], 1e-9);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace midway::test
