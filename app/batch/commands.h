@@ -9,13 +9,21 @@
 
 namespace midway {
 
-enum ExitStatus { exit_done = 0, exit_failed = 1, exit_usage = 2, exit_nonfinite = 3, exit_interrupted = 130 };
+enum ExitStatus {
+    exit_done = 0,
+    exit_failed = 1,
+    exit_usage = 2,
+    exit_nonfinite = 3,
+    exit_checkpointed = 75,
+    exit_interrupted = 130
+};
 
 using Command = std::function<int()>;
 
 Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_diff_command(CLI::App& app);
+Command add_merge_command(CLI::App& app);
 
 // Options that choose and change the scene, shared by several commands.
 void add_scene_options(CLI::App& command, SceneOptions& options);

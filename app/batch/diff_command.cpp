@@ -22,9 +22,13 @@ int run(const DiffCommand& c) {
     if (c.mask) options.mask = read_image(*c.mask).image;
     const ImageError e =
         compare_images(read_image(c.image).image, read_image(c.reference).image, options);
-    const std::pair<const char*, double> figures[] = {
-        {"mse", e.mse},     {"rmse", e.rmse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed},
-        {"smape", e.smape}, {"flip", e.flip}, {"mean_ratio", e.mean_ratio}};
+    const std::pair<const char*, double> figures[] = {{"mse", e.mse},
+                                                      {"rmse", e.rmse},
+                                                      {"relmse", e.relmse},
+                                                      {"relmse_trimmed", e.relmse_trimmed},
+                                                      {"smape", e.smape},
+                                                      {"flip", e.flip},
+                                                      {"mean_ratio", e.mean_ratio}};
     if (c.json) {
         nlohmann::ordered_json j;
         for (const auto& [key, value] : figures) j[key] = value;
@@ -33,7 +37,8 @@ int run(const DiffCommand& c) {
         for (const auto& [key, value] : figures) fmt::print("{:<15} {:.6g}\n", key, value);
     }
     if (c.max_relmse && !(e.relmse <= *c.max_relmse)) {
-        fmt::print(stderr, "midway: error: relmse {:.6g} exceeds {:.6g} ({}); see the figures above\n",
+        fmt::print(stderr,
+                   "midway: error: relmse {:.6g} exceeds {:.6g} ({}); see the figures above\n",
                    e.relmse, *c.max_relmse, c.image);
         return exit_failed;
     }

@@ -13,11 +13,16 @@ using Json = nlohmann::ordered_json;
 
 std::string_view kind_name(LightKind k) {
     switch (k) {
-        case LightKind::point: return "point";
-        case LightKind::spot: return "spot";
-        case LightKind::directional: return "directional";
-        case LightKind::area: return "area";
-        case LightKind::sky: return "sky";
+        case LightKind::point:
+            return "point";
+        case LightKind::spot:
+            return "spot";
+        case LightKind::directional:
+            return "directional";
+        case LightKind::area:
+            return "area";
+        case LightKind::sky:
+            return "sky";
     }
     return "";
 }
@@ -57,7 +62,8 @@ Json describe_scene(const PreparedScene& p) {
     j["surfaces"] = {{"rough", f.rough}, {"smooth", f.smooth}, {"transparent", f.transparent}};
     j["families"] = Json::array();
     for (const FamilyNeed& need : family_needs(f))
-        j["families"].push_back({{"family", need.family}, {"needed", need.needed}, {"why", need.why}});
+        j["families"].push_back(
+            {{"family", need.family}, {"needed", need.needed}, {"why", need.why}});
     j["left_out"] = Json::array();
     for (const FamilyNeed& need : family_needs(f))
         if (!need.needed) j["left_out"].push_back({{"what", need.family}, {"why", need.why}});

@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
     const std::map<std::string, midway::Command> commands = {
         {"render", midway::add_render_command(app)},
         {"info", midway::add_info_command(app)},
-        {"diff", midway::add_diff_command(app)}};
+        {"diff", midway::add_diff_command(app)},
+        {"merge", midway::add_merge_command(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

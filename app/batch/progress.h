@@ -8,7 +8,7 @@
 namespace midway {
 
 struct ProgressState {
-    double done = 0;  // 0..1
+    double done = 0;     // 0..1
     double samples = 0;  // per pixel
     std::uint64_t rays = 0;
 };

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <ctime>
 
+#include "checkpoint.h"
 #include "commands.h"
 #include "outputs.h"
 #include "progress.h"
@@ -30,6 +31,8 @@ struct RenderCommand {
     std::vector<int> crop;
     std::vector<std::string> only;
     std::vector<std::uint64_t> debug_pixel;
+    CheckpointOptions checkpoint;
+    std::string shard;
     int layer_edges = 8;
     bool quiet = false;
 };
@@ -53,6 +56,21 @@ Strategy parse_strategy(const std::string& text) {
     return k;
 }
 
+// --shard I/N: the I-th of N nearly equal blocks of passes.
+void choose_shard(RenderCommand& c) {
+    if (c.shard.empty()) return;
+    unsigned long long i = 0, n = 0;
+    int read = 0;
+    if (std::sscanf(c.shard.c_str(), "%llu/%llu%n", &i, &n, &read) != 2 ||
+        static_cast<size_t>(read) != c.shard.size() || n == 0 || i >= n)
+        usage("--shard: \"" + c.shard + "\" is not I/N with 0 <= I < N");
+    if (!c.spp || c.seconds) usage("--shard: needs --spp for the whole render, and no --time");
+    if (*c.spp < n) usage("--shard: fewer samples than shards");
+    const std::uint64_t first = *c.spp * i / n, end = *c.spp * (i + 1) / n;
+    c.renderer.first_pass = first;
+    c.spp = end - first;
+}
+
 // Turns the words of the command line into settings.
 void finish_settings(RenderCommand& c) {
     RenderSettings& s = c.settings;
@@ -72,6 +90,10 @@ void finish_settings(RenderCommand& c) {
     parse_size(c.size, s);
     if (c.crop.size() == 4) s.crop = PixelRect{c.crop[0], c.crop[1], c.crop[2], c.crop[3]};
     for (const std::string& text : c.only) s.only.push_back(parse_strategy(text));
+    choose_shard(c);
+    if (c.checkpoint.resume && (c.outputs.strategies || c.outputs.stats))
+        usage("--resume: strategy layers and statistics are not in a checkpoint");
+    if (c.checkpoint.resume && !c.checkpoint.path) usage("--resume: needs --checkpoint FILE");
     if (c.outputs.strategies) c.renderer.layer_edges = c.layer_edges;
     c.renderer.statistics = c.outputs.stats.has_value();
 }
@@ -107,18 +129,24 @@ void warn_of_gaps(const ProgressiveRenderer& r, const PreparedScene& p, Techniqu
         print_warnings({fmt::format("{} does not cover: {}", to_string(technique), what)});
 }
 
-RunFigures render_all(const RenderCommand& c, ProgressiveRenderer& r) {
+RunFigures render_all(const RenderCommand& c, const PreparedScene& p, ProgressiveRenderer& r) {
     Progress progress(c.quiet);
+    Checkpoint checkpoint(c.checkpoint, p, c.settings);
+    checkpoint.resume(r);
     const std::clock_t cpu = std::clock();
     WaveLimits limits;
     limits.passes = c.spp;
     limits.seconds = c.seconds;
     if (!c.spp && !c.seconds) limits.passes = 128;
-    const double seconds = render_in_waves(r, limits, [] { return interrupted != 0; },
-                                           [&](const WaveState& w) {
-                                               const RayCounts n = r.statistics().rays;
-                                               progress.update({w.done, w.passes, n.closest + n.shadow});
-                                           });
+    if (limits.passes) *limits.passes -= std::min(*limits.passes, r.passes());
+    const double seconds = render_in_waves(
+        r, limits, [] { return interrupted != 0; },
+        [&](const WaveState& w) {
+            const RayCounts n = r.statistics().rays;
+            progress.update({w.done, w.passes, n.closest + n.shadow});
+            if (w.whole) checkpoint.write_if_due(r);
+        });
+    checkpoint.write(r);
     RunFigures figures;
     figures.seconds_render = seconds;
     figures.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
@@ -137,7 +165,7 @@ int run(RenderCommand& c) {
     ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
     if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
     std::signal(SIGINT, [](int) { interrupted = 1; });
-    const RunFigures figures = render_all(c, r);
+    const RunFigures figures = render_all(c, p, r);
     write_outputs(c.outputs, p, c.settings, r, figures);
 
     const RenderStatistics s = r.statistics();
@@ -145,10 +173,10 @@ int run(RenderCommand& c) {
     if (s.fixed.overflow > 0)
         print_warnings({fmt::format("{} contributions overflowed the film", s.fixed.overflow)});
     if (s.nonfinite.count > 0)
-        print_warnings({fmt::format("{} samples were not finite; see --debug-pixel {},{},{}",
-                                    s.nonfinite.count, s.nonfinite.x, s.nonfinite.y,
-                                    s.nonfinite.pass)});
-    if (figures.interrupted) return exit_interrupted;
+        print_warnings(
+            {fmt::format("{} samples were not finite; see --debug-pixel {},{},{}",
+                         s.nonfinite.count, s.nonfinite.x, s.nonfinite.y, s.nonfinite.pass)});
+    if (figures.interrupted) return c.checkpoint.path ? exit_checkpointed : exit_interrupted;
     return s.nonfinite.count > 0 || s.fixed.overflow > 0 ? exit_nonfinite : exit_done;
 }
 
@@ -168,6 +196,18 @@ void add_image_options(CLI::App& sub, RenderCommand& c) {
         ->expected(3);
 }
 
+void add_run_options(CLI::App& sub, RenderCommand& c) {
+    sub.add_option("--spp", c.spp, "Samples per pixel")->check(CLI::PositiveNumber);
+    sub.add_option("--time", c.seconds, "Seconds of rendering")->check(CLI::PositiveNumber);
+    sub.add_option("--threads", c.renderer.threads, "Threads; 0: all processors")
+        ->check(CLI::Range(0, 1024));
+    sub.add_option("--shard", c.shard, "I/N: render the I-th of N parts, for midway merge");
+    sub.add_option("--checkpoint", c.checkpoint.path, "Film that the render can be resumed from");
+    sub.add_option("--checkpoint-every", c.checkpoint.every_seconds, "Seconds between checkpoints")
+        ->check(CLI::PositiveNumber);
+    sub.add_flag("--resume", c.checkpoint.resume, "Go on from --checkpoint where it exists");
+}
+
 }  // namespace
 
 Command add_render_command(CLI::App& app) {
@@ -179,13 +219,9 @@ Command add_render_command(CLI::App& app) {
         ->capture_default_str();
     sub.add_option("--exponent", c->exponents, "Exponent of the MIS weights; a list: same paths")
         ->delimiter(',');
-    sub.add_option("--spp", c->spp, "Samples per pixel")->check(CLI::PositiveNumber);
-    sub.add_option("--time", c->seconds, "Seconds of rendering")->check(CLI::PositiveNumber);
     sub.add_option("--max-bounces", c->settings.max_bounces, "Longest path, scattering events")
         ->capture_default_str();
     sub.add_option("--seed", c->settings.seed, "Seed of the random numbers");
-    sub.add_option("--threads", c->renderer.threads, "Threads; 0: all processors")
-        ->check(CLI::Range(0, 1024));
     sub.add_option("--sampler", c->sampler, "sobol or independent")->capture_default_str();
     sub.add_option("--clamp", c->settings.clamp, "Largest component of a contribution (biased)")
         ->check(CLI::PositiveNumber);
@@ -194,6 +230,7 @@ Command add_render_command(CLI::App& app) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     sub.add_flag("--unweighted", c->settings.unweighted, "Record bare estimates");
+    add_run_options(sub, *c);
     sub.add_flag("--quiet", c->quiet, "No progress, no warnings");
     return [c] { return run(*c); };
 }

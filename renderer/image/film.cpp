@@ -15,8 +15,7 @@ Int128 join(std::uint64_t low, std::uint64_t high) {
 void atomic_add(std::uint64_t* word, Int128 v) {
     const auto low = static_cast<std::uint64_t>(v);
     auto high = static_cast<std::uint64_t>(static_cast<UInt128>(v) >> 64);
-    const std::uint64_t before =
-        std::atomic_ref(word[0]).fetch_add(low, std::memory_order_relaxed);
+    const std::uint64_t before = std::atomic_ref(word[0]).fetch_add(low, std::memory_order_relaxed);
     high += before + low < before;
     if (high) std::atomic_ref(word[1]).fetch_add(high, std::memory_order_relaxed);
 }

@@ -1,7 +1,8 @@
-// The film: exact sums of contributions. Every value is a 128-bit integer in units of 2^-90 of a power
-// of two near the scene's emitted power, so sums do not depend on their order: not on threads, nor on
-// being split over runs or machines. Float contributions are held exactly over some 30 decades; what
-// loses bits below or does not fit above is counted. Even passes go to half A, odd ones to half B.
+// The film: exact sums of contributions. Every value is a 128-bit integer in units of 2^-90 of a
+// power of two near the scene's emitted power, so sums do not depend on their order: not on
+// threads, nor on being split over runs or machines. Float contributions are held exactly over some
+// 30 decades; what loses bits below or does not fit above is counted. Even passes go to half A, odd
+// ones to half B.
 #pragma once
 
 #include <array>
@@ -67,7 +68,8 @@ PassCounts pass_counts(std::uint64_t first, std::uint64_t end);
 // The mean of all passes.
 Image resolve(const Film& film, const PassCounts& passes);
 
-// Estimated variance of resolve()'s pixels: a quarter of the squared difference of the halves' means.
+// Estimated variance of resolve()'s pixels: a quarter of the squared difference of the halves'
+// means.
 Image resolve_variance(const Film& film, const PassCounts& passes);
 
 }  // namespace midway

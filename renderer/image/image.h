@@ -1,5 +1,6 @@
-// Images in memory: linear scene-referred RGB in float, rows from the top. Throws std::runtime_error
-// with one line "WHAT (WHERE); REMEDY" for anything that cannot be read or written.
+// Images in memory: linear scene-referred RGB in float, rows from the top. Throws
+// std::runtime_error with one line "WHAT (WHERE); REMEDY" for anything that cannot be read or
+// written.
 #pragma once
 
 #include <map>
@@ -22,7 +23,8 @@ struct Image {
 };
 
 // One named layer of an EXR file. An empty name is the main layer (channels R, G, B); otherwise the
-// channels are NAME.R, NAME.G, NAME.B, or NAME.V alone where `scalar` is set (the red part is kept).
+// channels are NAME.R, NAME.G, NAME.B, or NAME.V alone where `scalar` is set (the red part is
+// kept).
 struct ImageLayer {
     std::string name;
     Image image;

@@ -1,7 +1,7 @@
-// Pixel filters by importance sampling: a camera sample's offset from its pixel's centre is drawn in
-// proportion to the filter, so every sample weighs the same; a splat at a film position goes to one
-// of the pixels it is felt in, chosen in proportion to the filter. Both use one tabulated profile
-// per axis, hence the same filter to the last bit.
+// Pixel filters by importance sampling: a camera sample's offset from its pixel's centre is drawn
+// in proportion to the filter, so every sample weighs the same; a splat at a film position goes to
+// one of the pixels it is felt in, chosen in proportion to the filter. Both use one tabulated
+// profile per axis, hence the same filter to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ enum class FilterKind : std::uint8_t { box, gaussian, blackman_harris };
 
 struct PixelFilter {
     FilterKind kind = FilterKind::box;
-    float radius = 0.5f;      // pixels
-    Distribution1D profile;   // cells over [-radius, radius]
+    float radius = 0.5f;     // pixels
+    Distribution1D profile;  // cells over [-radius, radius]
 };
 
 PixelFilter make_filter(FilterKind kind);

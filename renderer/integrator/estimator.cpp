@@ -58,9 +58,8 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
                          towards_camera(e, c.strategy)};
     const mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light,
                                   !is_delta(kind) && e.families.emitter_hit};
-    fill_weights(e, c, [&](const auto& h, int i) {
-        return mis::next_event(h, v.mis[i], side, pdfs);
-    });
+    fill_weights(e, c,
+                 [&](const auto& h, int i) { return mis::next_event(h, v.mis[i], side, pdfs); });
     if (is_black(c.value) || no_weight(e, c)) return {};
 
     rays.count_shadow(c.strategy);
@@ -122,15 +121,15 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l,
     if (is_black(f.f)) return {};
     const double cos_l = abs_dot(l.ng, direction);
     // Density per area at the vertex of one camera sample per pixel area: also the importance.
-    const double pdf_a = camera_pdf_w(e.camera, -glm::dot(direction, e.camera.forward)) * cos_l /
-                         distance2;
+    const double pdf_a =
+        camera_pdf_w(e.camera, -glm::dot(direction, e.camera.forward)) * cos_l / distance2;
     Splat s;
     s.x = pixel.x;
     s.y = pixel.y;
     Contribution& c = s.contribution;
     c.strategy = {1, l.index + 1};
-    c.value = l.throughput * f.f *
-              static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
+    c.value =
+        l.throughput * f.f * static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
     if (is_black(c.value)) return {};
     const mis::Side side{pdf_a, f.pdf_rev_w, towards_light(e, c.strategy)};
     fill_weights(e, c, [&](const auto& h, int i) {

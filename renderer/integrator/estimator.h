@@ -1,5 +1,6 @@
-// The estimators: `path`, `light` and `bdpt` of any exponent are one estimator with different families
-// of strategies (DESIGN, section 2). A sample is a camera subpath together with a light subpath, and
+// The estimators: `path`, `light` and `bdpt` of any exponent are one estimator with different
+// families of strategies (DESIGN, section 2). A sample is a camera subpath together with a light
+// subpath, and
 //   s >= 2, t = 0   the camera walk hits a light         (seed, case 2)
 //   s >= 2, t = 1   next event                           (case 3)
 //   s = 1,  t >= 2  light tracing, splatted              (case 4)
@@ -36,7 +37,8 @@ struct RayCounts {
     }
 };
 
-// Surface vertices of one light subpath; kept by each worker so that nothing is allocated per sample.
+// Surface vertices of one light subpath; kept by each worker so that nothing is allocated per
+// sample.
 using LightSubpath = std::vector<PathVertex>;
 
 // Fills the weights; `weigh` is called with the heuristic of each exponent.
@@ -113,8 +115,8 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
         }
         // Without emitter hits the last edge would find nothing.
         const bool last = walk.index == e.max_bounces && !e.families.emitter_hit;
-        const bool only_lamps = !e.families.emitter_hit && !e.families.next_event &&
-                                !e.families.connection;
+        const bool only_lamps =
+            !e.families.emitter_hit && !e.families.next_event && !e.families.connection;
         if (last || only_lamps || !scatter(walk)) return;
     }
 }

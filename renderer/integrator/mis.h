@@ -5,12 +5,12 @@
 // Each vertex i of a subpath, counted from its end (vertex 0: lens or light), carries two sums,
 //   vcm_i = (1 / p_i)^b                                                              (20)
 //   vc_i  = (g_{i-1} / p_i)^b (vcm_{i-1} + (p_sigma,i-2)^b vc_{i-1})                 (21)
-// with p_i the forward density per area of vertex i, g_{i-1} = cos / d^2 of the reverse direction at
-// vertex i-1 and p_sigma,i-2 the reverse density per solid angle from i-1 to i-2. A strategy is then
-// weighed by the four cases (26)-(33).
+// with p_i the forward density per area of vertex i, g_{i-1} = cos / d^2 of the reverse direction
+// at vertex i-1 and p_sigma,i-2 the reverse density per solid angle from i-1 to i-2. A strategy is
+// then weighed by the four cases (26)-(33).
 //
-// Beyond the seed: a term counts only if its strategy is *feasible* (DESIGN, section 2), which is how
-// families, delta vertices and delta lights enter; next event and emission may have different
+// Beyond the seed: a term counts only if its strategy is *feasible* (DESIGN, section 2), which is
+// how families, delta vertices and delta lights enter; next event and emission may have different
 // densities; x^b of a zero density is zero for every b, also 0.
 #pragma once
 
@@ -112,24 +112,25 @@ State start_camera(const H& h, double n, double pdf_a) {
     return store<H>({h(n / pdf_a), h(0)});
 }
 
-// Eq. (24), (25): vertex 1 of a light subpath. r = next event's density of vertex 0 over emission's;
-// g_0 = cos / d^2 at the light, 1 for infinite lights (37). A delta light cannot be hit: vc = 0 (34).
+// Eq. (24), (25): vertex 1 of a light subpath. r = next event's density of vertex 0 over
+// emission's; g_0 = cos / d^2 at the light, 1 for infinite lights (37). A delta light cannot be
+// hit: vc = 0 (34).
 struct LightStart {
-    double pdf_origin = 0;      // p_0, of emission
-    double pdf_a = 0;           // p_1
-    double g_light = 0;         // g_0
+    double pdf_origin = 0;        // p_0, of emission
+    double pdf_a = 0;             // p_1
+    double g_light = 0;           // g_0
     double next_event_ratio = 1;  // r
     bool hittable = true;
 };
 template <class H>
 State start_light(const H& h, const LightStart& l, const Setting& setting) {
     const bool hit = l.hittable && setting.families.emitter_hit;
-    return store<H>({h(l.next_event_ratio / l.pdf_a),
-                     hit ? h(l.g_light / l.pdf_origin / l.pdf_a) : h(0)});
+    return store<H>(
+        {h(l.next_event_ratio / l.pdf_a), hit ? h(l.g_light / l.pdf_origin / l.pdf_a) : h(0)});
 }
 
-// The step from vertex i-1 to vertex i. For a delta vertex i-1 the densities are the coefficients of
-// its Dirac factors.
+// The step from vertex i-1 to vertex i. For a delta vertex i-1 the densities are the coefficients
+// of its Dirac factors.
 struct Step {
     double pdf_fwd_a = 0;  // p_i per area (coefficient * g_i behind a delta vertex)
     double g_rev = 0;      // g_{i-1}: cos at vertex i-1 over d^2
@@ -148,7 +149,8 @@ State advance(const H& h, const State& previous, const Step& k) {
 }
 
 // w of one side of a connecting edge, eq. (26), (27): pdf_a is the density per area with which the
-// *other* side would have made this end vertex, pdf_rev_w the density from it to its own predecessor.
+// *other* side would have made this end vertex, pdf_rev_w the density from it to its own
+// predecessor.
 struct Side {
     double pdf_a = 0;
     double pdf_rev_w = 0;
@@ -189,7 +191,8 @@ double emitter_hit(const H& h, const State& camera, const EmitterHitPdfs& k) {
 struct NextEventPdfs {
     double next_event = 0;  // density of the light point by next event, as LightPdfs
     double origin = 0;      // by emission
-    double hit_pdf = 0;     // p_0 reversed: of the camera side hitting that point (area; solid angle for infinite lights)
+    double hit_pdf = 0;  // p_0 reversed: of the camera side hitting that point (area; solid angle
+                         // for infinite lights)
     bool hit_feasible = true;
 };
 template <class H>

@@ -16,10 +16,14 @@ constexpr Word words[] = {{"emitter", &Families::emitter_hit},
 
 std::string_view family_name(Family f) {
     switch (f) {
-        case Family::emitter_hit: return "emitter hit";
-        case Family::next_event: return "next event";
-        case Family::light_tracing: return "light tracing";
-        case Family::connection: return "connection";
+        case Family::emitter_hit:
+            return "emitter hit";
+        case Family::next_event:
+            return "next event";
+        case Family::light_tracing:
+            return "light tracing";
+        case Family::connection:
+            return "connection";
     }
     return "";
 }

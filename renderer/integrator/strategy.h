@@ -1,5 +1,5 @@
-// Strategies (s, t): s camera vertices and t light vertices (the seed's order; Veach, pbrt and Mitsuba
-// write them the other way round). A path with k edges has s + t = k + 1.
+// Strategies (s, t): s camera vertices and t light vertices (the seed's order; Veach, pbrt and
+// Mitsuba write them the other way round). A path with k edges has s + t = k + 1.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,7 @@ constexpr size_t strategy_index(const Strategy& k) {
     return edges * (edges - 1) / 2 + edges - 1 + static_cast<size_t>(k.s) - 1;
 }
 // Strategies (s, t) with at most `edges` edges have an index below this.
-constexpr size_t strategy_count(int edges) {
-    return strategy_index({1, edges + 1});
-}
+constexpr size_t strategy_count(int edges) { return strategy_index({1, edges + 1}); }
 
 enum class Family : std::uint8_t { emitter_hit, next_event, light_tracing, connection };
 
@@ -40,10 +38,14 @@ struct Families {
 
     bool has(Family f) const {
         switch (f) {
-            case Family::emitter_hit: return emitter_hit;
-            case Family::next_event: return next_event;
-            case Family::light_tracing: return light_tracing;
-            case Family::connection: return connection;
+            case Family::emitter_hit:
+                return emitter_hit;
+            case Family::next_event:
+                return next_event;
+            case Family::light_tracing:
+                return light_tracing;
+            case Family::connection:
+                return connection;
         }
         return false;
     }

@@ -13,12 +13,13 @@ SampleKey make_key(const Estimator& e, Stream stream, std::uint64_t pass, std::u
 }
 
 std::uint64_t coin(const Walk& w) {
-    return hash_combine(hash_combine(w.key.key, w.key.index), coin_stream + 4 * std::uint64_t(w.index));
+    return hash_combine(hash_combine(w.key.key, w.key.index),
+                        coin_stream + 4 * std::uint64_t(w.index));
 }
 
 // Is the strategy that the previous vertex's vcm stands for feasible? On the camera side vertex i
-// stands for the connection of its i predecessors to a longer light subpath (light tracing for i = 1);
-// on the light side for i light vertices (next event for i = 1).
+// stands for the connection of its i predecessors to a longer light subpath (light tracing for i =
+// 1); on the light side for i light vertices (next event for i = 1).
 bool previous_connects(const Estimator& e, const Walk& w) {
     const int i = w.index - 1;
     const Strategy k = w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{2, i};
@@ -46,15 +47,13 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     l.g_light = w.infinite_light ? 1 : w.cos_previous / distance2;
     l.next_event_ratio = double(w.light_pdfs.next_event) / w.light_pdfs.origin;
     l.hittable = w.hittable_light;
-    for_each_exponent(e, [&](const auto& h, int i) {
-        w.mis[i] = mis::start_light(h, l, e.mis_setting());
-    });
+    for_each_exponent(
+        e, [&](const auto& h, int i) { w.mis[i] = mis::start_light(h, l, e.mis_setting()); });
 }
 
 void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
     const mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, previous_connects(e, w)};
-    for_each_exponent(e,
-                      [&](const auto& h, int i) { w.mis[i] = mis::advance(h, w.mis[i], step); });
+    for_each_exponent(e, [&](const auto& h, int i) { w.mis[i] = mis::advance(h, w.mis[i], step); });
 }
 
 }  // namespace
@@ -69,8 +68,8 @@ SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pas
 }
 
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass) {
-    // In the order of the pixels, neighbours and successive passes would meet subpaths from the same
-    // strata; a permutation of its own for every pass leaves no pattern.
+    // In the order of the pixels, neighbours and successive passes would meet subpaths from the
+    // same strata; a permutation of its own for every pass leaves no pattern.
     const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
     return permute_index(pixel, e.light_subpaths, hash_combine(e.seed, 0x70616972 + pass));
 }
@@ -133,8 +132,9 @@ Reached extend(const Estimator& e, Walk& w) {
     v.error = hit->error;
     v.ng = hit->shading.ng;
     // From an infinitely far light the edge has the direction of the ray, wherever the disc lies.
-    v.to_previous = w.infinite_light && w.index == 1 ? -w.ray.direction
-                                                     : back / static_cast<float>(std::sqrt(distance2));
+    v.to_previous = w.infinite_light && w.index == 1
+                        ? -w.ray.direction
+                        : back / static_cast<float>(std::sqrt(distance2));
     v.throughput = w.throughput;
     v.bsdf = make_bsdf(material_at(*e.scene, *hit), e.scene->textures, hit->shading);
     v.index = w.index;

@@ -1,5 +1,6 @@
-// Random walks from the camera or from a light. One walk serves both ends: extend() traces to the next
-// surface and keeps the sums of the MIS weights up to date, scatter() chooses where to go from there.
+// Random walks from the camera or from a light. One walk serves both ends: extend() traces to the
+// next surface and keeps the sums of the MIS weights up to date, scatter() chooses where to go from
+// there.
 #pragma once
 
 #include <array>
@@ -88,11 +89,10 @@ SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pas
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);
 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass);
-std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
-                                     std::uint64_t pass);
+std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
 
-// Traces to the next vertex. Where the ray leaves the scene, walk.mis holds the sums for a vertex at
-// infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
+// Traces to the next vertex. Where the ray leaves the scene, walk.mis holds the sums for a vertex
+// at infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
 enum class Reached : std::uint8_t { surface, sky, nothing };
 Reached extend(const Estimator& e, Walk& walk);
 

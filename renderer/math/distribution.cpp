@@ -16,9 +16,9 @@ Distribution1D make_distribution(const std::vector<double>& weights) {
 }
 
 DiscreteSample sample_discrete(const Distribution1D& d, double u) {
-    // The first boundary above u ends the interval; an empty interval has no point that is above its
-    // start and below its end, so it is never chosen. Rounding at the top end falls back to the last
-    // interval that is not empty.
+    // The first boundary above u ends the interval; an empty interval has no point that is above
+    // its start and below its end, so it is never chosen. Rounding at the top end falls back to the
+    // last interval that is not empty.
     auto end = std::upper_bound(d.cdf.begin(), d.cdf.end(), u);
     if (end == d.cdf.end()) end = std::lower_bound(d.cdf.begin(), d.cdf.end(), d.cdf.back());
     const int i = static_cast<int>(end - d.cdf.begin()) - 1;
@@ -44,7 +44,9 @@ Distribution2D make_distribution_2d(const std::vector<double>& weights, int widt
 CellSample sample_cell(const Distribution2D& d, const vec2& u) {
     const DiscreteSample row = sample_discrete(d.rows, u.y);
     const DiscreteSample column = sample_discrete(d.columns[row.index], u.x);
-    return {column.index, row.index, row.probability * column.probability,
+    return {column.index,
+            row.index,
+            row.probability * column.probability,
             {column.remapped, row.remapped}};
 }
 

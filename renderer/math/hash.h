@@ -13,15 +13,17 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) { return mix64(a ^ mix64(b)); }
+constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) {
+    return mix64(a ^ mix64(b));
+}
 
 // Uniform float in [0, 1 - 2^-24] from the upper 24 bits.
 constexpr float to_unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
-// A permutation of [0, n) chosen by `key`: four Feistel rounds on the next even power of two, walked
-// until the value falls into range (Black & Rogaway 2002, cycle walking).
+// A permutation of [0, n) chosen by `key`: four Feistel rounds on the next even power of two,
+// walked until the value falls into range (Black & Rogaway 2002, cycle walking).
 constexpr std::uint64_t permute_index(std::uint64_t index, std::uint64_t n, std::uint64_t key) {
     int half_bits = 1;
     while ((std::uint64_t{1} << (2 * half_bits)) < n) ++half_bits;
@@ -29,7 +31,8 @@ constexpr std::uint64_t permute_index(std::uint64_t index, std::uint64_t n, std:
     do {
         std::uint64_t left = index >> half_bits, right = index & mask;
         for (int round = 0; round < 4; ++round) {
-            const std::uint64_t next = left ^ (mix64(right + key + (std::uint64_t(round) << 56)) & mask);
+            const std::uint64_t next =
+                left ^ (mix64(right + key + (std::uint64_t(round) << 56)) & mask);
             left = right;
             right = next;
         }

@@ -75,8 +75,7 @@ Bits4 owen_sobol_4d(std::uint32_t index, std::uint64_t seed) {
 
 Bits4 sample_bits(const SampleKey& sample, std::uint32_t group) {
     if (sample.kind == SamplerKind::independent) {
-        const std::uint64_t a =
-            hash_combine(hash_combine(sample.key, group), mix64(sample.index));
+        const std::uint64_t a = hash_combine(hash_combine(sample.key, group), mix64(sample.index));
         const std::uint64_t b = mix64(a);
         return {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32),
                 static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(b >> 32)};

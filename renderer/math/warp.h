@@ -1,5 +1,6 @@
-// Warps from the unit square to the shapes that are sampled, each beside its density. Random numbers
-// lie in [0, 1 - 2^-24]; every warp gives a finite result of non-zero density for all of them.
+// Warps from the unit square to the shapes that are sampled, each beside its density. Random
+// numbers lie in [0, 1 - 2^-24]; every warp gives a finite result of non-zero density for all of
+// them.
 #pragma once
 
 #include "math/frame.h"

@@ -1,5 +1,5 @@
-// What the camera sees first: albedo, shading normal, depth and object, with the same filter and lens
-// as the image. Sums of a pixel run in the order of its samples, so threads do not show.
+// What the camera sees first: albedo, shading normal, depth and object, with the same filter and
+// lens as the image. Sums of a pixel run in the order of its samples, so threads do not show.
 #pragma once
 
 #include "render/settings.h"

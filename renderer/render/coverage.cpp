@@ -58,9 +58,9 @@ SceneFeatures scene_features(const Scene& s) {
     for (const Object& o : s.geometry->objects) {
         const Material& m = s.materials[o.material];
         // Textures can only lower roughness, metalness and transmission below their factors.
-        const bool may_be_smooth =
-            sqr(m.roughness) < smooth_alpha || m.metallic_roughness_texture.used() ||
-            std::abs(m.ior - 1) < 1e-3f;
+        const bool may_be_smooth = sqr(m.roughness) < smooth_alpha ||
+                                   m.metallic_roughness_texture.used() ||
+                                   std::abs(m.ior - 1) < 1e-3f;
         const bool mirrors = m.specular > 0 || m.metallic > 0 || m.transmission > 0;
         const bool black = max_component(m.base_color) == 0;
         const bool diffuse = !black && (m.metallic < 1 || m.metallic_roughness_texture.used()) &&
@@ -86,12 +86,13 @@ std::vector<FamilyNeed> family_needs(const SceneFeatures& f) {
                      f.hittable_lights ? "there are lamps or a sky that a ray can hit"
                                        : "no light here can be hit by a ray"});
     const bool connects = f.rough && any_light;
-    const std::string why_not = any_light ? "no surface here can be connected to: all are smooth or black"
-                                          : "there is no light";
-    needs.push_back({"next-event", connects,
-                     connects ? "rough surfaces can be connected to lights" : why_not});
-    needs.push_back({"light", connects,
-                     connects ? "rough surfaces can be connected to the camera" : why_not});
+    const std::string why_not = any_light
+                                    ? "no surface here can be connected to: all are smooth or black"
+                                    : "there is no light";
+    needs.push_back(
+        {"next-event", connects, connects ? "rough surfaces can be connected to lights" : why_not});
+    needs.push_back(
+        {"light", connects, connects ? "rough surfaces can be connected to the camera" : why_not});
     needs.push_back({"connect", connects,
                      connects ? "rough surfaces can be connected to each other" : why_not});
     return needs;

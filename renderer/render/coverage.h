@@ -1,6 +1,6 @@
-// Which paths a scene can have, which families of strategies can make them, and which no strategy of
-// a technique can (DESIGN, section 2: a technique covers a path if one of its strategies is feasible).
-// Found from what is in the scene, before any sample.
+// Which paths a scene can have, which families of strategies can make them, and which no strategy
+// of a technique can (DESIGN, section 2: a technique covers a path if one of its strategies is
+// feasible). Found from what is in the scene, before any sample.
 #pragma once
 
 #include <string>

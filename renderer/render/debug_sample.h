@@ -19,7 +19,8 @@ struct DebugSample {
     std::vector<DebugContribution> contributions;
 };
 
-// Sample number `pass` of a pixel, with the light subpath that it meets (whose splats go elsewhere).
+// Sample number `pass` of a pixel, with the light subpath that it meets (whose splats go
+// elsewhere).
 DebugSample replay_sample(const Estimator& estimator, int x, int y, std::uint64_t pass);
 
 }  // namespace midway

@@ -131,7 +131,7 @@ FilmHeader film_header(const PreparedScene& p, const RenderSettings& settings,
     h.version = MIDWAY_VERSION;
     h.instruction_set = MIDWAY_ARCH;
     h.scene_hash = p.hash;
-    h.passes = {{0, r.passes()}};
+    h.passes = {{r.first_pass(), r.first_pass() + r.passes()}};
     h.exponents = settings.exponents;
     h.width = r.film().width();
     h.height = r.film().height();
@@ -147,7 +147,8 @@ void write_film(const std::string& path, const FilmFile& file) {
 
 void write_film(const std::string& path, const FilmHeader& header, const ProgressiveRenderer& r) {
     std::vector<const Film*> films;
-    for (size_t i = 0; i < header.exponents.size(); ++i) films.push_back(&r.film(static_cast<int>(i)));
+    for (size_t i = 0; i < header.exponents.size(); ++i)
+        films.push_back(&r.film(static_cast<int>(i)));
     write(path, header, films);
 }
 
@@ -176,16 +177,20 @@ FilmFile read_film(const std::string& path) {
     return file;
 }
 
-void merge_film(FilmFile& into, const FilmFile& from) {
-    FilmHeader& a = into.header;
-    const FilmHeader& b = from.header;
+void check_same_render(const FilmHeader& a, const FilmHeader& b) {
     if (a.scene_hash != b.scene_hash || a.settings != b.settings || a.exponents != b.exponents ||
-        a.unit_exponent != b.unit_exponent)
+        a.unit_exponent != b.unit_exponent || a.width != b.width || a.height != b.height)
         throw std::runtime_error("films come from different scenes or settings (" + b.scene +
-                                 "); merge films of one render");
+                                 "); use films of one render");
     if (a.version != b.version || a.instruction_set != b.instruction_set)
         throw std::runtime_error("films were made by different programs (" + b.version + ", " +
                                  b.instruction_set + "); use one build on all machines");
+}
+
+void merge_film(FilmFile& into, const FilmFile& from) {
+    FilmHeader& a = into.header;
+    const FilmHeader& b = from.header;
+    check_same_render(a, b);
     std::vector<PassRange> all = a.passes;
     all.insert(all.end(), b.passes.begin(), b.passes.end());
     std::sort(all.begin(), all.end(),
@@ -194,7 +199,13 @@ void merge_film(FilmFile& into, const FilmFile& from) {
         if (all[i].first < all[i - 1].end)
             throw std::runtime_error("films hold the same samples (" + b.scene +
                                      "); merge each shard once");
-    a.passes = std::move(all);
+    a.passes.clear();
+    for (const PassRange& r : all) {
+        if (!a.passes.empty() && a.passes.back().end == r.first)
+            a.passes.back().end = r.end;
+        else
+            a.passes.push_back(r);
+    }
     for (size_t i = 0; i < into.films.size(); ++i) into.films[i].merge(from.films[i]);
 }
 

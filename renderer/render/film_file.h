@@ -1,8 +1,8 @@
-// .film files: the exact sums of a render with all that is needed to go on or to join them (settings,
-// scene hash, ranges of passes, program version and instruction set). Format: the line "MIDWAYFILM 1",
-// the length of a JSON header (8 bytes, little-endian), the header, for every exponent the words of
-// its Film, and a hash of everything before. Everything is checked on reading; throws
-// std::runtime_error with one line.
+// .film files: the exact sums of a render with all that is needed to go on or to join them
+// (settings, scene hash, ranges of passes, program version and instruction set). Format: the line
+// "MIDWAYFILM 1", the length of a JSON header (8 bytes, little-endian), the header, for every
+// exponent the words of its Film, and a hash of everything before. Everything is checked on
+// reading; throws std::runtime_error with one line.
 #pragma once
 
 #include <string>
@@ -44,6 +44,9 @@ void write_film(const std::string& path, const FilmFile& file);
 void write_film(const std::string& path, const FilmHeader& header,
                 const ProgressiveRenderer& renderer);
 FilmFile read_film(const std::string& path);
+
+// Throws where two films do not belong to one render.
+void check_same_render(const FilmHeader& a, const FilmHeader& b);
 
 // Throws where two films do not belong to one render, or hold the same passes.
 void merge_film(FilmFile& into, const FilmFile& from);

@@ -47,8 +47,8 @@ struct NonFinite {
 
 // What all workers share.
 struct FilmTargets {
-    std::vector<Film>* films = nullptr;                              // one per exponent
-    std::vector<std::unique_ptr<StrategyFilms>>* layers = nullptr;   // by strategy_index, or null
+    std::vector<Film>* films = nullptr;                             // one per exponent
+    std::vector<std::unique_ptr<StrategyFilms>>* layers = nullptr;  // by strategy_index, or null
     bool statistics = false;
     PixelRect crop;
     std::vector<bool> wanted;  // by strategy_index; empty: all
@@ -102,7 +102,8 @@ class FilmRecord {
     // Adds the sample's sum to its pixel.
     void end() {
         for (size_t i = 0; i < targets_.films->size(); ++i)
-            (*targets_.films)[i].add(half(), x_ - targets_.crop.x0, y_ - targets_.crop.y0, pixel_[i]);
+            (*targets_.films)[i].add(half(), x_ - targets_.crop.x0, y_ - targets_.crop.y0,
+                                     pixel_[i]);
     }
 
   private:

@@ -79,8 +79,7 @@ CameraDescription choose_camera(const SceneOptions& o, PreparedScene& p) {
     } else {
         const Bounds b = scene_bounds(d).value_or(Bounds{dvec3(-0.5), dvec3(0.5)});
         c = frame_scene(b.lower, b.upper);
-        if (!o.look_at)
-            p.warnings.push_back("the file has no camera; the whole scene is framed");
+        if (!o.look_at) p.warnings.push_back("the file has no camera; the whole scene is framed");
     }
     if (o.look_at) {
         const auto& v = *o.look_at;
@@ -107,7 +106,8 @@ void choose_lights(const SceneOptions& o, PreparedScene& p) {
     if (o.sky) d.sky = chosen_sky(*o.sky);
     if (!has_light(d)) {
         d.sky = default_sky();
-        p.warnings.push_back("the scene has no light; a soft default sky is used (--sky changes it)");
+        p.warnings.push_back(
+            "the scene has no light; a soft default sky is used (--sky changes it)");
     }
     if (d.sky) {
         d.sky->rotation_degrees += o.sky_rotation_degrees;

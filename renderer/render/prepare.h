@@ -17,7 +17,7 @@ struct SceneOptions {
     double sky_rotation_degrees = 0;
     float sky_strength = 1;
     float lamp_strength = 1;
-    std::optional<std::string> camera;  // name or index
+    std::optional<std::string> camera;             // name or index
     std::optional<std::array<double, 6>> look_at;  // eye, target; in the file's units
     std::optional<double> fov_degrees;             // vertical
     std::optional<double> aperture_radius;

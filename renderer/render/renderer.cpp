@@ -54,7 +54,9 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
                                          const CameraDescription& camera,
                                          const RenderSettings& settings,
                                          const RendererOptions& options)
-    : scene_(std::move(scene)), estimator_(make_estimator(*scene_, camera, settings)) {
+    : scene_(std::move(scene)),
+      estimator_(make_estimator(*scene_, camera, settings)),
+      first_pass_(options.first_pass) {
     const int processors = std::max(1u, std::thread::hardware_concurrency());
     threads_ = options.threads > 0 ? options.threads : processors;
     const int unit = film_unit_exponent(scene_->total_power);
@@ -84,7 +86,7 @@ void ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t i
     scratch.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
     FilmRecord<observed> record(targets_, sums);
     for (std::uint64_t i = next++; i < items; i = next++) {
-        const std::uint64_t pass = passes_ + i / tiles.count();
+        const std::uint64_t pass = first_pass_ + passes_ + i / tiles.count();
         const PixelRect tile = tiles.at(i % tiles.count());
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x) {
@@ -121,12 +123,17 @@ void ProgressiveRenderer::render_passes(std::uint64_t count,
             });
         }
         std::unique_lock lock(mutex);
-        while (!finished.wait_for(lock, std::chrono::milliseconds(100),
-                                  [&] { return running == 0; }))
+        while (
+            !finished.wait_for(lock, std::chrono::milliseconds(100), [&] { return running == 0; }))
             if (tick) tick(std::min(1.0, double(next) / double(items)));
     }
     for (const WorkerSums& s : sums) merge(s);
     passes_ += count;
+}
+
+void ProgressiveRenderer::adopt(std::vector<Film> films, std::uint64_t passes) {
+    films_ = std::move(films);
+    passes_ = passes;
 }
 
 void ProgressiveRenderer::merge(const WorkerSums& s) {
@@ -146,9 +153,7 @@ void ProgressiveRenderer::merge(const WorkerSums& s) {
     }
 }
 
-Image ProgressiveRenderer::image(int exponent) const {
-    return resolve(films_[exponent], counts());
-}
+Image ProgressiveRenderer::image(int exponent) const { return resolve(films_[exponent], counts()); }
 
 Image ProgressiveRenderer::variance(int exponent) const {
     return resolve_variance(films_[exponent], counts());

@@ -1,5 +1,5 @@
-// The progressive renderer: runs whole passes (one sample of every pixel of the crop) on all threads.
-// Which thread computes what never shows in the result.
+// The progressive renderer: runs whole passes (one sample of every pixel of the crop) on all
+// threads. Which thread computes what never shows in the result.
 #pragma once
 
 #include <atomic>
@@ -12,9 +12,10 @@
 namespace midway {
 
 struct RendererOptions {
-    int threads = 0;           // 0: all processors
-    int layer_edges = 0;       // > 0: strategy layers for paths of up to so many edges
-    bool statistics = false;   // per strategy
+    int threads = 0;               // 0: all processors
+    int layer_edges = 0;           // > 0: strategy layers for paths of up to so many edges
+    bool statistics = false;       // per strategy
+    std::uint64_t first_pass = 0;  // of a shard: the samples before belong to others
 };
 
 struct StrategyStatistics {
@@ -41,7 +42,11 @@ class ProgressiveRenderer {
     // ten times a second by the calling thread with the share that is done.
     void render_passes(std::uint64_t count, const std::function<void(double)>& tick = {});
 
+    // Goes on from films of this very render (same scene and settings) that hold `passes` passes.
+    void adopt(std::vector<Film> films, std::uint64_t passes);
+
     std::uint64_t passes() const { return passes_; }
+    std::uint64_t first_pass() const { return first_pass_; }
     int threads() const { return threads_; }
     const Estimator& estimator() const { return estimator_; }
     const Film& film(int exponent = 0) const { return films_[exponent]; }
@@ -54,7 +59,7 @@ class ProgressiveRenderer {
         const StrategyFilms* films;
     };
     std::vector<Layer> layers() const;
-    PassCounts counts() const { return pass_counts(0, passes_); }
+    PassCounts counts() const { return pass_counts(first_pass_, first_pass_ + passes_); }
 
   private:
     template <bool observed>
@@ -64,7 +69,7 @@ class ProgressiveRenderer {
     std::shared_ptr<const Scene> scene_;
     Estimator estimator_;
     int threads_ = 1;
-    std::uint64_t passes_ = 0;
+    std::uint64_t first_pass_ = 0, passes_ = 0;
     std::vector<Film> films_;
     std::vector<std::unique_ptr<StrategyFilms>> layers_;
     FilmTargets targets_;

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "render/coverage.h"
+
 namespace midway {
 namespace {
 
@@ -37,6 +39,15 @@ constexpr std::pair<std::string_view, FilterKind> filters[] = {
     {"gaussian", FilterKind::gaussian},
     {"blackman-harris", FilterKind::blackman_harris}};
 
+// Families that cannot find anything in this scene cost nothing and weigh nothing.
+void leave_out(const SceneFeatures& features, Families& f) {
+    f.emitter_hit &= features.hittable_lights;
+    const bool connects = features.rough && (features.hittable_lights || features.delta_lights);
+    f.next_event &= connects;
+    f.light_tracing &= connects;
+    f.connection &= connects;
+}
+
 }  // namespace
 
 std::string_view to_string(Technique t) { return word_of(t, techniques); }
@@ -48,9 +59,12 @@ FilterKind parse_filter(std::string_view s) { return parse_word(s, filters, "--f
 
 Families families_of(Technique t) {
     switch (t) {
-        case Technique::path: return {true, true, false, false};
-        case Technique::light: return {false, false, true, false};
-        case Technique::bdpt: return {true, true, true, true};
+        case Technique::path:
+            return {true, true, false, false};
+        case Technique::light:
+            return {false, false, true, false};
+        case Technique::bdpt:
+            return {true, true, true, true};
     }
     return {};
 }
@@ -82,6 +96,7 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
         e.families.light_tracing &= s.families->light_tracing;
         e.families.connection &= s.families->connection;
     }
+    leave_out(scene_features(scene), e.families);
     e.direct_lamps = s.technique == Technique::light;
     e.exponent_count = static_cast<int>(s.exponents.size());
     std::copy(s.exponents.begin(), s.exponents.end(), e.exponents.begin());

@@ -16,7 +16,9 @@ double render_in_waves(ProgressiveRenderer& r, const WaveLimits& limits,
                        const std::function<void(const WaveState&)>& progress) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
     const std::uint64_t first = r.passes();
     std::uint64_t wave = 1;
     const auto state = [&](double in_wave) {
@@ -24,7 +26,7 @@ double render_in_waves(ProgressiveRenderer& r, const WaveLimits& limits,
         double done = 0;
         if (limits.passes) done = passes / std::max(1.0, double(*limits.passes));
         if (limits.seconds) done = std::max(done, seconds() / *limits.seconds);
-        return WaveState{std::min(done, 1.0), passes};
+        return WaveState{std::min(done, 1.0), passes, in_wave == 0};
     };
     while (!limits.passes || r.passes() - first < *limits.passes) {
         const double elapsed = seconds();
@@ -35,7 +37,8 @@ double render_in_waves(ProgressiveRenderer& r, const WaveLimits& limits,
             double room = longest_wave_seconds;
             if (limits.seconds) room = std::min(room, *limits.seconds - elapsed);
             const double fits = std::max(1.0, room / std::max(per_pass, 1e-9));
-            wave = std::min<std::uint64_t>(finished, static_cast<std::uint64_t>(std::min(fits, 1e9)));
+            wave =
+                std::min<std::uint64_t>(finished, static_cast<std::uint64_t>(std::min(fits, 1e9)));
         }
         if (limits.passes) wave = std::min(wave, *limits.passes - finished);
         const double in_wave = double(wave);

@@ -1,5 +1,5 @@
-// Rendering in waves: 1, 1, 2, 4, ... passes, each a whole number of passes, until a limit is met. How
-// passes fall into waves never shows in the image; only where the render ends does.
+// Rendering in waves: 1, 1, 2, 4, ... passes, each a whole number of passes, until a limit is met.
+// How passes fall into waves never shows in the image; only where the render ends does.
 #pragma once
 
 #include <functional>
@@ -15,8 +15,9 @@ struct WaveLimits {
 };
 
 struct WaveState {
-    double done = 0;    // share of the limit that comes first
-    double passes = 0;  // finished, with the share of the wave that is under way
+    double done = 0;     // share of the limit that comes first
+    double passes = 0;   // finished, with the share of the wave that is under way
+    bool whole = false;  // between waves: the renderer is at rest
 };
 
 // Returns the seconds spent rendering. The first pass always finishes.

@@ -1,8 +1,9 @@
 // Ray queries against a Geometry. The only user of Embree is accel.cpp.
 //
 // Alpha is a probability: a walk's ray meets a transparent triangle with probability alpha, decided
-// by a hash of (coin, object, triangle), so that the answer depends neither on the order of traversal
-// nor on the thread; a connection is multiplied by 1 - alpha of everything that it crosses.
+// by a hash of (coin, object, triangle), so that the answer depends neither on the order of
+// traversal nor on the thread; a connection is multiplied by 1 - alpha of everything that it
+// crosses.
 #pragma once
 
 #include <limits>
@@ -37,7 +38,8 @@ class Accel {
     // The first surface that the walk's ray meets; object < 0: none.
     TriangleHit closest(const Ray& ray, const AlphaLookup& alpha, std::uint64_t coin) const;
 
-    // What arrives over the segment origin + [0, tfar] * direction: 0 where something opaque is hit.
+    // What arrives over the segment origin + [0, tfar] * direction: 0 where something opaque is
+    // hit.
     float transmittance(const Ray& ray, const AlphaLookup& alpha) const;
 
   private:

@@ -38,8 +38,7 @@ Normalisation normalise(const SceneDescription& d) {
 
 void transform_vertices(const Mesh& mesh, const dmat4& m, const Normalisation& n, Object& o) {
     for (const vec3& p : mesh.positions)
-        o.positions.push_back(
-            vec3((dvec3(m * dvec4(dvec3(p), 1.0)) - n.center) * n.scale));
+        o.positions.push_back(vec3((dvec3(m * dvec4(dvec3(p), 1.0)) - n.center) * n.scale));
     const dmat3 linear(m);
     // The cofactor matrix turns normals also where the transform is singular or mirrors.
     const dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
@@ -114,8 +113,8 @@ std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d,
     return g;
 }
 
-// Mean emission of a triangle, coverage included. A small share of the material's own emission keeps
-// it positive wherever a texel between the probes may shine.
+// Mean emission of a triangle, coverage included. A small share of the material's own emission
+// keeps it positive wherever a texel between the probes may shine.
 double mean_emission(const Scene& s, const Object& o, int object, int triangle) {
     const Material& m = s.materials[o.material];
     if (!m.emission_texture.used() && !o.may_be_transparent) return mean(m.emission);

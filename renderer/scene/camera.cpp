@@ -49,8 +49,8 @@ CameraDescription look_at(CameraDescription like, const dvec3& eye, const dvec3&
     // Straight up or down there is no horizon; any right vector serves.
     const dvec3 up = std::abs(back.y) > 0.99999 ? dvec3(0, 0, back.y > 0 ? -1 : 1) : dvec3(0, 1, 0);
     const dvec3 right = glm::normalize(glm::cross(up, back));
-    like.to_world = dmat4(dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0),
-                          dvec4(eye, 1));
+    like.to_world =
+        dmat4(dvec4(right, 0), dvec4(glm::cross(back, right), 0), dvec4(back, 0), dvec4(eye, 1));
     return like;
 }
 
@@ -67,7 +67,8 @@ CameraDescription frame_scene(const dvec3& lower, const dvec3& upper) {
     double distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const dvec3 p = dvec3(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y,
-                              corner & 4 ? upper.z : lower.z) - center;
+                              corner & 4 ? upper.z : lower.z) -
+                        center;
         const double side = std::max(std::abs(glm::dot(p, right)), std::abs(glm::dot(p, up)));
         distance = std::max(distance, side / half + glm::dot(p, back));
     }

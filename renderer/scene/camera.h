@@ -1,5 +1,5 @@
-// Pinhole and thin-lens camera in scene space. Film positions are continuous pixel coordinates: (0, 0)
-// is the upper left corner of the image, y grows downwards.
+// Pinhole and thin-lens camera in scene space. Film positions are continuous pixel coordinates: (0,
+// 0) is the upper left corner of the image, y grows downwards.
 #pragma once
 
 #include <optional>
@@ -32,8 +32,9 @@ vec3 camera_direction(const Camera& camera, const vec3& lens, const vec2& film);
 // directions that point backwards.
 std::optional<vec2> film_position(const Camera& camera, const vec3& lens, const vec3& direction);
 
-// Density per solid angle of one sample drawn uniformly over one pixel's area; cos_theta against the
-// view axis. The density of light tracing's splats and of eq. (22) is this times the sample count.
+// Density per solid angle of one sample drawn uniformly over one pixel's area; cos_theta against
+// the view axis. The density of light tracing's splats and of eq. (22) is this times the sample
+// count.
 inline float camera_pdf_w(const Camera& camera, float cos_theta) {
     return 1 / (sqr(camera.pixel_size) * cos_theta * cos_theta * cos_theta);
 }

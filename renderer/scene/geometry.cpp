@@ -28,8 +28,8 @@ SurfacePoint surface_point(const Object& o, const TriangleHit& hit) {
     p.position = v0 * b0 + v1 * b1 + v2 * b2;
     const vec3 e1 = v1 - v0, e2 = v2 - v0;
     const vec3 extent = glm::max(glm::abs(e1), glm::abs(e2));
-    p.error = error_steps * half_ulp *
-              (max_component(glm::abs(p.position)) + max_component(extent));
+    p.error =
+        error_steps * half_ulp * (max_component(glm::abs(p.position)) + max_component(extent));
     p.shading.ng = glm::normalize(glm::cross(e1, e2));
     p.shading.normal = p.shading.ng;
     p.shading.thin = !o.closed;
@@ -54,7 +54,8 @@ vec3 offset_origin(const vec3& position, const vec3& ng, float error, const vec3
 
 TriangleShape triangle_shape(const Object& o, int triangle) {
     const uvec3& t = o.triangles[triangle];
-    const vec3 c = glm::cross(o.positions[t.y] - o.positions[t.x], o.positions[t.z] - o.positions[t.x]);
+    const vec3 c =
+        glm::cross(o.positions[t.y] - o.positions[t.x], o.positions[t.z] - o.positions[t.x]);
     const float len = glm::length(c);
     return {c / len, 0.5f * len};
 }

@@ -1,5 +1,5 @@
-// Triangles as they are traced: in scene space, that is recentred (in double) and scaled by a power of
-// two so that the bounding radius lies in [0.5, 1). Nothing here is edited after it is built.
+// Triangles as they are traced: in scene space, that is recentred (in double) and scaled by a power
+// of two so that the bounding radius lies in [0.5, 1). Nothing here is edited after it is built.
 #pragma once
 
 #include <array>

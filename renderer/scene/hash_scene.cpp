@@ -22,10 +22,8 @@ class Hasher {
         state_ = hash_combine(state_, tail + n);
     }
     template <class T>
-        requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-    void add(T v) {
-        bytes(&v, sizeof v);
-    }
+    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+    void add(T v) { bytes(&v, sizeof v); }
     void add(const vec3& v) { bytes(&v, sizeof v); }
     void add(const dmat4& m) { bytes(&m, sizeof m); }
     void add(const TextureRef& t) {
@@ -63,10 +61,9 @@ void add_material(Hasher& h, const Material& m) {
     h.add(m.specular);
     h.add(m.specular_color);
     h.add(m.has_thickness);
-    for (const TextureRef* t :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-          &m.emission_texture, &m.transmission_texture, &m.specular_texture,
-          &m.specular_color_texture})
+    for (const TextureRef* t : {&m.base_color_texture, &m.metallic_roughness_texture,
+                                &m.normal_texture, &m.emission_texture, &m.transmission_texture,
+                                &m.specular_texture, &m.specular_color_texture})
         h.add(*t);
 }
 

@@ -14,9 +14,7 @@ float spot_falloff(const Light& l, float cos_theta) {
 }
 
 // Integral of the falloff over cos(theta): the ramp gives a third of its width.
-float spot_integral(const Light& l) {
-    return (1 - l.cos_inner) + (l.cos_inner - l.cos_outer) / 3;
-}
+float spot_integral(const Light& l) { return (1 - l.cos_inner) + (l.cos_inner - l.cos_outer) / 3; }
 
 float spot_pdf_w(const Light& l, float cos_theta) {
     return spot_falloff(l, cos_theta) / (2 * pi * spot_integral(l));
@@ -26,7 +24,8 @@ float spot_pdf_w(const Light& l, float cos_theta) {
 float sample_spot_cosine(const Light& l, float u) {
     const float ramp = (l.cos_inner - l.cos_outer) / 3, all = spot_integral(l);
     if (u * all < ramp)
-        return l.cos_outer + (l.cos_inner - l.cos_outer) * std::cbrt((u * all + 1e-9f * ramp) / ramp);
+        return l.cos_outer +
+               (l.cos_inner - l.cos_outer) * std::cbrt((u * all + 1e-9f * ramp) / ramp);
     return l.cos_inner + std::min(1 - l.cos_inner, u * all - ramp);
 }
 
@@ -69,8 +68,7 @@ SurfacePoint area_point(const Scene& s, const Light& l, const vec2& u) {
 // Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
 vec3 area_emission(const Scene& s, const SurfacePoint& p) {
     const Material& m = material_at(s, p);
-    return material_emission(m, s.textures, p.shading) *
-           material_alpha(m, s.textures, p.shading);
+    return material_emission(m, s.textures, p.shading) * material_alpha(m, s.textures, p.shading);
 }
 
 EmissionSample emit_area(const Scene& s, int id, const EmissionNumbers& u) {

@@ -2,9 +2,9 @@
 // ends of a path: emission (light subpaths), next event (a point chosen for a surface) and hits.
 //
 // Every interface reports the same three densities, so that any strategy's pdf can be formed
-// (DESIGN, section 2; seed, eq. 24-38). For a finite light the *origin* is the point on the light and
-// the *leave* density is that of the direction; for an infinite light the origin is the direction
-// (eq. 35) and the leave density that of the place on the bounding disc (eq. 38):
+// (DESIGN, section 2; seed, eq. 24-38). For a finite light the *origin* is the point on the light
+// and the *leave* density is that of the direction; for an infinite light the origin is the
+// direction (eq. 35) and the leave density that of the place on the bounding disc (eq. 38):
 //                        finite                          infinite
 //   pdf_origin           per area, times the pick        per solid angle, times the pick
 //   pdf_leave            per solid angle                 per area of the disc
@@ -32,7 +32,7 @@ struct Light {
     vec3 normal{0};                      // area, of the front
     float area = 0;
     bool two_sided = false;
-    double power = 0;  // mean of RGB
+    double power = 0;      // mean of RGB
     int description = -1;  // index among the file's punctual lights
 };
 
@@ -47,11 +47,11 @@ struct LightPdfs {
 // Start of a light subpath.
 struct EmissionSample {
     int light = -1;
-    vec3 position{0};   // origin of the ray
-    float error = 0;    // of the position, finite lights with a surface
-    vec3 normal{0};     // of the emitting side; the direction itself for lights without a surface
+    vec3 position{0};  // origin of the ray
+    float error = 0;   // of the position, finite lights with a surface
+    vec3 normal{0};    // of the emitting side; the direction itself for lights without a surface
     vec3 direction{0};
-    vec3 weight{0};     // Le |cos| / (pdf_origin pdf_leave)
+    vec3 weight{0};  // Le |cos| / (pdf_origin pdf_leave)
     LightPdfs pdfs;
     float cos_theta = 1;  // of the direction at the origin; 1 without a surface
 };

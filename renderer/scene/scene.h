@@ -1,5 +1,6 @@
 // A scene frozen for tracing: const while any worker runs. build_scene() makes one from a
-// SceneDescription; the geometry, its tree and the textures are shared with the Scenes of later edits.
+// SceneDescription; the geometry, its tree and the textures are shared with the Scenes of later
+// edits.
 #pragma once
 
 #include <memory>
@@ -45,7 +46,8 @@ std::uint64_t hash_scene(const SceneDescription& description, const CameraDescri
 // What a ray meets first; empty where it leaves the scene. `coin` decides about transparency.
 std::optional<SurfacePoint> intersect(const Scene& scene, const Ray& ray, std::uint64_t coin);
 
-// What passes between two points, each given with the offset that keeps the ray off its own surface.
+// What passes between two points, each given with the offset that keeps the ray off its own
+// surface.
 float visibility(const Scene& scene, const vec3& from, const vec3& to);
 // What passes from a point into the open.
 float visibility_to_infinity(const Scene& scene, const vec3& from, const vec3& direction);

@@ -1,5 +1,5 @@
-// A scene as a person edits it: plain data in the file's own units and coordinates, nothing derived.
-// build_scene() (scene/scene.h) freezes it into a Scene that can be traced.
+// A scene as a person edits it: plain data in the file's own units and coordinates, nothing
+// derived. build_scene() (scene/scene.h) freezes it into a Scene that can be traced.
 #pragma once
 
 #include <array>
@@ -60,8 +60,8 @@ struct CameraDescription {
     dmat4 to_world{1.0};
 };
 
-// Light from infinitely far: an equirectangular map, or one colour where `map` is empty. The middle of
-// the map looks along -z, a quarter to the right of it is +x, the top row is +y.
+// Light from infinitely far: an equirectangular map, or one colour where `map` is empty. The middle
+// of the map looks along -z, a quarter to the right of it is +x, the top row is +y.
 struct SkyDescription {
     std::string source;  // file name, or "colour", or "default"
     std::shared_ptr<const Image> map;

@@ -14,7 +14,7 @@ struct Sky {
     std::shared_ptr<const Image> map;  // empty: constant
     vec3 scale{1};                     // colour times strength
     float cos_rotation = 1, sin_rotation = 0;
-    Distribution2D cells;  // of the map's texels, by mean radiance times solid angle
+    Distribution2D cells;     // of the map's texels, by mean radiance times solid angle
     float mean_radiance = 0;  // over the sphere, mean of RGB, after scaling
 };
 

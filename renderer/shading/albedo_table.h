@@ -1,6 +1,7 @@
-// Directional albedo of the single-scattering GGX reflection lobe under Schlick's Fresnel term, which
-// is linear in f0 and f90: E(mu) = f0 * a(mu) + f90 * b(mu). The diffuse layer below a specular coat
-// gets what the coat leaves over, 1 - E, in both directions (after Kelemen & Szirmay-Kalos 2001).
+// Directional albedo of the single-scattering GGX reflection lobe under Schlick's Fresnel term,
+// which is linear in f0 and f90: E(mu) = f0 * a(mu) + f90 * b(mu). The diffuse layer below a
+// specular coat gets what the coat leaves over, 1 - E, in both directions (after Kelemen &
+// Szirmay-Kalos 2001).
 #pragma once
 
 namespace midway {

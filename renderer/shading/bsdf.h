@@ -13,8 +13,8 @@
 // which of the two given directions is o. Radiance is scaled by (eta_o / eta_i)^2 at refraction.
 //
 // Reflection and transmission are told apart by ng. A diffuse lobe takes |cos| with ns, which keeps
-// its albedo exact for every tilt of ns; the other lobes are zero where ns and ng disagree about the
-// side of a direction.
+// its albedo exact for every tilt of ns; the other lobes are zero where ns and ng disagree about
+// the side of a direction.
 #pragma once
 
 #include <optional>
@@ -24,20 +24,20 @@
 
 namespace midway {
 
-// What a subpath carries away from its first vertex: the camera's walk gathers radiance, the light's
-// walk spreads importance's dual.
+// What a subpath carries away from its first vertex: the camera's walk gathers radiance, the
+// light's walk spreads importance's dual.
 enum class Transport : std::uint8_t { radiance, importance };
 
 struct Bsdf {
-    Frame frame;        // z is the shading normal ns, on the side of ng
-    vec3 ng{0, 0, 1};   // geometric normal of the front side
-    vec3 diffuse{0};    // albedo of the Lambert lobe before the coat
+    Frame frame;                      // z is the shading normal ns, on the side of ng
+    vec3 ng{0, 0, 1};                 // geometric normal of the front side
+    vec3 diffuse{0};                  // albedo of the Lambert lobe before the coat
     float coat_f0 = 0, coat_f90 = 0;  // largest component of the coat over the diffuse lobe
-    vec3 f0{0}, f90{0};  // specular lobe
-    float alpha = 1;     // GGX width of both microfacet lobes
-    vec3 glass{0};       // weight of the glass lobe
-    vec3 glass_tint{1};  // of transmitted light, per interface
-    float eta = 1.5f;    // index behind the front side over that before it
+    vec3 f0{0}, f90{0};               // specular lobe
+    float alpha = 1;                  // GGX width of both microfacet lobes
+    vec3 glass{0};                    // weight of the glass lobe
+    vec3 glass_tint{1};               // of transmitted light, per interface
+    float eta = 1.5f;                 // index behind the front side over that before it
     bool thin = false;
 
     bool has_diffuse() const { return !is_black(diffuse); }
@@ -45,7 +45,9 @@ struct Bsdf {
     bool has_glass() const { return !is_black(glass); }
     bool smooth() const;
     // Whether two directions chosen by somebody else can have f > 0.
-    bool connectible() const { return has_diffuse() || ((has_specular() || has_glass()) && !smooth()); }
+    bool connectible() const {
+        return has_diffuse() || ((has_specular() || has_glass()) && !smooth());
+    }
     bool empty() const { return !has_diffuse() && !has_specular() && !has_glass(); }
 };
 
@@ -61,11 +63,13 @@ BsdfEval eval_bsdf(const Bsdf& bsdf, const vec3& from, const vec3& to, Transport
 
 struct BsdfSample {
     vec3 to{0, 0, 1};
-    vec3 weight{0};  // f |to . ng| / pdf_fwd_w; for a delta lobe the ratio of the Dirac factors' coefficients
+    vec3 weight{0};  // f |to . ng| / pdf_fwd_w; for a delta lobe the ratio of the Dirac factors'
+                     // coefficients
     float pdf_fwd_w = 0;  // per solid angle; for a delta lobe the discrete probability
     float pdf_rev_w = 0;
     bool delta = false;
-    float eta_scale = 1;  // (eta_from / eta_to)^2 where `to` crossed into another medium, in radiance transport
+    float eta_scale =
+        1;  // (eta_from / eta_to)^2 where `to` crossed into another medium, in radiance transport
 };
 
 // Draws `to` given `from`: u.xyz. Empty where the lobes absorb everything or the drawn direction is

@@ -50,7 +50,7 @@ struct Material {
     float transmission = 0;
     TextureRef transmission_texture;  // linear, r
     float ior = 1.5f;
-    float specular = 1;  // 0: pure Lambert
+    float specular = 1;           // 0: pure Lambert
     TextureRef specular_texture;  // linear, a
     vec3 specular_color{1};
     TextureRef specular_color_texture;  // sRGB

@@ -1,6 +1,6 @@
 // Isotropic GGX microfacets and Fresnel terms, in a local frame whose z is the macrosurface normal.
-// Sources: Walter et al. 2007 (distribution, refraction), Heitz 2014 (masking), Heitz 2018 and Dupuy &
-// Benyoub 2023 (visible normals), Schlick 1994. `alpha` is roughness squared and at least
+// Sources: Walter et al. 2007 (distribution, refraction), Heitz 2014 (masking), Heitz 2018 and
+// Dupuy & Benyoub 2023 (visible normals), Schlick 1994. `alpha` is roughness squared and at least
 // smooth_alpha; below that a lobe is a Dirac delta.
 #pragma once
 

@@ -13,8 +13,8 @@ const std::array<float, 256>& srgb_table() {
         std::array<float, 256> t{};
         for (int i = 0; i < 256; ++i) {
             const double c = i / 255.0;
-            t[i] = static_cast<float>(c <= 0.04045 ? c / 12.92
-                                                   : std::pow((c + 0.055) / 1.055, 2.4));
+            t[i] =
+                static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
         }
         return t;
     }();
@@ -31,9 +31,9 @@ int wrap_index(std::int64_t i, int n, Wrap wrap) {
 
 vec4 texel(const TextureImage& image, const TextureRef& ref, std::int64_t x, std::int64_t y,
            ColorSpace space) {
-    const size_t at = 4 * (static_cast<size_t>(wrap_index(y, image.height, ref.wrap_v)) *
-                               image.width +
-                           wrap_index(x, image.width, ref.wrap_u));
+    const size_t at =
+        4 * (static_cast<size_t>(wrap_index(y, image.height, ref.wrap_v)) * image.width +
+             wrap_index(x, image.width, ref.wrap_u));
     const std::uint8_t* c = &image.rgba[at];
     const float a = c[3] / 255.0f;
     if (space == ColorSpace::linear) return {c[0] / 255.0f, c[1] / 255.0f, c[2] / 255.0f, a};
@@ -80,7 +80,8 @@ vec4 sample_texture(const TextureSet& textures, const TextureRef& ref, const Sha
     const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
     const float tx = static_cast<float>(x - 0.5 - fx), ty = static_cast<float>(y - 0.5 - fy);
     const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy);
-    const vec4 top = glm::mix(texel(image, ref, ix, iy, space), texel(image, ref, ix + 1, iy, space), tx);
+    const vec4 top =
+        glm::mix(texel(image, ref, ix, iy, space), texel(image, ref, ix + 1, iy, space), tx);
     const vec4 bottom = glm::mix(texel(image, ref, ix, iy + 1, space),
                                  texel(image, ref, ix + 1, iy + 1, space), tx);
     return glm::mix(top, bottom, ty);
@@ -99,10 +100,10 @@ vec3 material_emission(const Material& m, const TextureSet& textures, const Shad
 }
 
 Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint& p) {
-    const vec3 base = glm::clamp(
-        m.base_color * vec3(p.color) *
-            vec3(sample_texture(textures, m.base_color_texture, p, ColorSpace::srgb)),
-        0.0f, 1.0f);
+    const vec3 base =
+        glm::clamp(m.base_color * vec3(p.color) *
+                       vec3(sample_texture(textures, m.base_color_texture, p, ColorSpace::srgb)),
+                   0.0f, 1.0f);
     const vec4 mr = sample_texture(textures, m.metallic_roughness_texture, p, ColorSpace::linear);
     const float metallic = std::clamp(m.metallic * mr.z, 0.0f, 1.0f);
     const float roughness = std::clamp(m.roughness * mr.y, 0.0f, 1.0f);
@@ -113,8 +114,8 @@ Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint
             : 0.0f;
     const float specular =
         m.specular * sample_texture(textures, m.specular_texture, p, ColorSpace::linear).w;
-    const vec3 tint = m.specular_color * vec3(sample_texture(textures, m.specular_color_texture, p,
-                                                             ColorSpace::srgb));
+    const vec3 tint = m.specular_color *
+                      vec3(sample_texture(textures, m.specular_color_texture, p, ColorSpace::srgb));
 
     Bsdf b;
     b.ng = p.ng;
@@ -124,8 +125,7 @@ Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint
     b.thin = p.thin;
     // glTF 2.0 appendix B and KHR_materials_specular: a dielectric coat over a diffuse layer, mixed
     // with a metal; the transmitted part replaces coat and diffuse layer together.
-    const vec3 coat_f0 =
-        glm::min(tint * sqr((m.ior - 1) / (m.ior + 1)), vec3(1)) * specular;
+    const vec3 coat_f0 = glm::min(tint * sqr((m.ior - 1) / (m.ior + 1)), vec3(1)) * specular;
     const float opaque = (1 - metallic) * (1 - transmission);
     b.diffuse = base * opaque;
     b.coat_f0 = max_component(coat_f0);

@@ -14,12 +14,12 @@ using TextureSet = std::vector<std::shared_ptr<const TextureImage>>;
 
 // What the surface offers to its material at one point.
 struct ShadingPoint {
-    vec3 ng{0, 0, 1};         // geometric normal of the front side, unit
-    vec3 normal{0, 0, 1};     // interpolated, unit
+    vec3 ng{0, 0, 1};          // geometric normal of the front side, unit
+    vec3 normal{0, 0, 1};      // interpolated, unit
     vec4 tangent{0, 0, 0, 1};  // interpolated; xyz zero where there is none; w the handedness
     vec2 uv[2] = {vec2(0), vec2(0)};
-    vec4 color{1};        // vertex colour
-    bool thin = false;    // transmission through a sheet instead of into a body
+    vec4 color{1};      // vertex colour
+    bool thin = false;  // transmission through a sheet instead of into a body
 };
 
 enum class ColorSpace : std::uint8_t { linear, srgb };
