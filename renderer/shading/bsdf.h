@@ -12,9 +12,9 @@
 // light side and the eta^2 of refraction of the camera side are thereby inside). Transport tells
 // which of the two given directions is o. Radiance is scaled by (eta_o / eta_i)^2 at refraction.
 //
-// Reflection and transmission are told apart by ng. A diffuse lobe takes |cos| with ns, which keeps
-// its albedo exact for every tilt of ns; the other lobes are zero where ns and ng disagree about
-// the side of a direction.
+// Reflection and transmission are told apart by ng. Where ns and ng disagree about the side of a
+// direction, lobes are folded and not cut: the albedo stays exact for every tilt of ns
+// (bsdf_lobes.h says how).
 #pragma once
 
 #include <optional>
