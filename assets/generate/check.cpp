@@ -34,11 +34,8 @@ void check_triangle(const Mesh& mesh, const uvec3& t, const std::string& name) {
     const double longest =
         std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
     if (!(glm::length(cross) > 1e-5 * longest * longest)) fail(name, "degenerate triangle");
-    for (int k = 0; k < 3; ++k) {
-        const dvec3& n = mesh.normals[t[k]];
-        if (!(std::abs(glm::length(n) - 1) < 1e-6)) fail(name, "normal not of unit length");
-        if (!(glm::dot(n, cross) > 0)) fail(name, "normal against the winding");
-    }
+    for (int k = 0; k < 3; ++k)
+        if (!(glm::dot(mesh.normals[t[k]], cross) > 0)) fail(name, "normal against the winding");
 }
 
 void check_closed(const Mesh& mesh, const std::string& name) {
@@ -79,6 +76,8 @@ void check_closed(const Mesh& mesh, const std::string& name) {
 void check_mesh(const Mesh& mesh, const std::string& name, bool closed) {
     if (mesh.triangles.empty()) fail(name, "no triangles");
     if (mesh.normals.size() != mesh.positions.size()) fail(name, "normals missing");
+    for (const dvec3& n : mesh.normals)
+        if (!(std::abs(glm::length(n) - 1) < 1e-6)) fail(name, "normal not of unit length");
     for (const uvec3& t : mesh.triangles) check_triangle(mesh, t, name);
     if (closed) check_closed(mesh, name);
 }

@@ -95,7 +95,7 @@ void add_table(Scene& scene) {
                            {0.041, 0.006},
                            {0, 0.006}},
                           64)),
-          clay, translation({0.12, y, 0.58}));
+          clay, translation({0.43, y, 0.50}));
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ Scene ajar() {
     add_shell(scene);
     add_door(scene);
     add_table(scene);
-    const int bulb = add_material(scene, lamp("corridor lamp", dvec3(1.0, 0.88, 0.68) * 900.0));
+    const int bulb = add_material(scene, lamp("corridor lamp", dvec3(1.0, 0.88, 0.68) * 1400.0));
     const double y = height - 0.03, x = 0.8, z = (divide - wall_thickness + back) / 2;
     show_surface(scene, "corridor lamp", bulb,
                  quad({x - 0.25, y, z - 0.15}, {x + 0.25, y, z - 0.15}, {x + 0.25, y, z + 0.15},

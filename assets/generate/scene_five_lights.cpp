@@ -39,7 +39,7 @@ Scene five_lights() {
 
     scene.lights.push_back({.name = "point lamp",
                             .kind = LightKind::point,
-                            .intensity = {0.50, 0.23, 0.05},
+                            .intensity = {0.65, 0.29, 0.06},
                             .to_world = translation({-1.45, 0.40, 0.45})});
     scene.lights.push_back({.name = "spot lamp",
                             .kind = LightKind::spot,
@@ -49,7 +49,7 @@ Scene five_lights() {
                             .to_world = looking_at({0.1, 2.3, 1.0}, {0.22, 0, 0.28})});
     scene.lights.push_back({.name = "directional lamp",
                             .kind = LightKind::directional,
-                            .intensity = {1.1, 0.98, 0.74},
+                            .intensity = {1.3, 1.1, 0.78},
                             .to_world = looking_at({-3.0, 2.2, -2.4}, {0, 0, 0})});
     scene.cameras.push_back({.name = "camera",
                              .yfov = 30 * pi / 180,

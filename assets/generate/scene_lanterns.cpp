@@ -20,7 +20,7 @@ Palette add_lamps(Scene& scene) {
     for (const double strength : {4.0, 1.2, 0.3, 0.05, 0.004})
         for (const dvec3& tint : tints)
             palette.paper.push_back(add_material(scene, lamp("paper", tint * strength)));
-    for (const double strength : {900.0, 150.0, 15.0, 1.0})
+    for (const double strength : {1800.0, 300.0, 20.0, 1.0})
         palette.bulb.push_back(
             add_material(scene, lamp("bulb", dvec3(1.0, 0.78, 0.48) * strength)));
     return palette;
@@ -66,7 +66,7 @@ void add_string(Scene& scene, const LampShapes& shapes, const dvec3& from, const
 }
 
 void add_strings(Scene& scene, const LampShapes& shapes) {
-    Random random{7};
+    Random random{8};
     for (int i = 0; i < 9; ++i) {
         const double z = back + 0.5 + 0.85 * i;
         const double lift = random.between(-0.25, 0.1);
@@ -95,7 +95,7 @@ void add_standing_lamps(Scene& scene, const LampShapes& shapes) {
 
 void add_courtyard(Scene& scene) {
     const double w = half_width, h = wall_height, f = 5.5;
-    const int plaster = add_material(scene, lambert("plaster", {0.60, 0.50, 0.40}));
+    const int plaster = add_material(scene, lambert("plaster", {0.68, 0.57, 0.45}));
     const int brick = add_material(scene, lambert("brick", {0.44, 0.22, 0.15}));
     const int stone = add_material(scene, glossy("wet stone", {0.17, 0.16, 0.16}, 0.22));
     const int wood = add_material(scene, glossy("painted wood", {0.10, 0.22, 0.20}, 0.3));
@@ -160,7 +160,7 @@ void add_basin(Scene& scene) {
           rim, translation({0.35, 0, -2.2}));
     place(scene, "water", add_surface(scene, "water", lathe({{0.825, 0.34}, {0, 0.34}}, 64)), water,
           translation({0.35, 0, -2.2}));
-    std::vector<dvec2> profile = {{0, 0}, {0.17, 0}};
+    std::vector<dvec2> profile = {{0, 0}};
     for (int i = 0; i <= 40; ++i) {
         const double t = i / 40.0;
         const double r = 0.17 + 0.20 * std::sin(pi * std::pow(t, 0.8)) - 0.05 * t;

@@ -36,7 +36,7 @@ Scene plates() {
         place(scene, name, plate, steel, facing_lamps(centres[i]));
     }
 
-    const double intensity = 0.55;  // per steradian, of every lamp: radiance times cross-section
+    const double intensity = 0.40;  // per steradian, of every lamp: radiance times cross-section
     const double radii[] = {0.008, 0.027, 0.09, 0.27};
     const double across[] = {-1.2, -0.5, 0.22, 1.08};
     for (int i = 0; i < 4; ++i) {
@@ -48,7 +48,7 @@ Scene plates() {
     }
     scene.lights.push_back({.name = "fill",
                             .kind = LightKind::point,
-                            .intensity = dvec3(0.9),
+                            .intensity = dvec3(1.6),
                             .to_world = translation({0, 3.5, 4})});
     scene.cameras.push_back({.name = "camera",
                              .yfov = 30 * pi / 180,

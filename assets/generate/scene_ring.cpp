@@ -26,7 +26,7 @@ Mesh band(double inner_radius, double outer_radius, double height, double roundi
 
 Scene ring() {
     Scene scene{.name = "ring"};
-    const int table = add_material(scene, lambert("table", {0.66, 0.63, 0.58}));
+    const int table = add_material(scene, lambert("table", {0.68, 0.62, 0.56}));
     const int gold = add_material(scene, metal("gold", {1.0, 0.78, 0.34}, 0.1));
     show_surface(scene, "table", table, quad({-3, 0, 3}, {3, 0, 3}, {3, 0, -3}, {-3, 0, -3}));
     // Pale screens outside the frame soften the shadow and give the gold something to mirror.
@@ -35,7 +35,7 @@ Scene ring() {
     show_surface(scene, "right screen", table, quad({2, 0, -3}, {2, 0, 3}, {2, 2, 3}, {2, 2, -3}));
     place(scene, "ring", add_solid(scene, "ring", band(0.29, 0.30, 0.10, 0.004)), gold,
           translation({0, 0.0002, 0}));
-    const int bulb = add_material(scene, lamp("lamp", dvec3(1.0, 0.93, 0.82) * 1150.0));
+    const int bulb = add_material(scene, lamp("lamp", dvec3(1.0, 0.93, 0.82) * 1900.0));
     place(scene, "lamp", add_solid(scene, "lamp", icosphere(0.02, 2)), bulb,
           translation({-0.85, 0.55, -0.48}));
     scene.cameras.push_back({.name = "camera",
