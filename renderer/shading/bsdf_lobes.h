@@ -42,7 +42,10 @@ inline vec3 mirror(const SideFrame& s, const vec3& w) { return w - 2 * glm::dot(
 inline vec3 above(const vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 
 // Index beyond the surface over that on this side.
-inline float eta_beyond(const Bsdf& b, bool front) { return front ? b.eta : 1 / b.eta; }
+// A thin sheet shows its outer face on both sides.
+inline float eta_beyond(const Bsdf& b, bool front) {
+    return front || b.thin ? b.eta : 1 / b.eta;
+}
 
 // The lobe's directions that end in the light-side direction i, in i's own frame (above: z > 0).
 struct LightSide {
