@@ -250,7 +250,7 @@ void caustic(Builder& b) {
 struct Entry {
     std::string name;
     Make make;
-    bool sees_smooth = false, caustic = false;
+    bool sees_smooth = false, caustic = false, narrow = false;
 };
 
 const std::vector<Entry>& entries() {
@@ -318,18 +318,33 @@ const std::vector<Entry>& entries() {
         {"thin_lens", thin_lens},
         {"camera_in_glass", camera_in_glass},
         {"caustic", caustic, false, true},
+        {"narrow_metal",
+         [](Builder& b) {
+             surface(b, metal({0.9f, 0.7f, 0.4f}, 0.04f));
+         },
+         false, false, true},
+        {"narrow_glass", [](Builder& b) { surface(b, glass(0.04f, true)); }, false, false, true},
+        {"narrow_plastic",
+         [](Builder& b) {
+             surface(b, plastic({0.3f, 0.4f, 0.7f}, 0.033f));
+         },
+         false, false, true},
     };
     return all;
 }
 
 }  // namespace
 
-const std::vector<std::string>& agreement_scene_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> n;
-        for (const Entry& e : entries()) n.push_back(e.name);
-        return n;
-    }();
+std::vector<std::string> agreement_scene_names() {
+    std::vector<std::string> names;
+    for (const Entry& e : entries())
+        if (!e.narrow) names.push_back(e.name);
+    return names;
+}
+
+std::vector<std::string> oracle_scene_names() {
+    std::vector<std::string> names;
+    for (const Entry& e : entries()) names.push_back(e.name);
     return names;
 }
 

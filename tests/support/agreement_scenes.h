@@ -23,7 +23,10 @@ struct AgreementScene {
 };
 
 // The names of all scenes; make_agreement_scene() builds one. Throws for unknown names.
-const std::vector<std::string>& agreement_scene_names();
+std::vector<std::string> agreement_scene_names();
+// Those and a few with lobes nearly as narrow as rough ones get, whose images are too noisy to be
+// set against each other by naive weights, but whose weights can be checked path by path.
+std::vector<std::string> oracle_scene_names();
 AgreementScene make_agreement_scene(const std::string& name);
 
 // A scene file as a batch render sees it, with its first camera (a framing one where it has none).

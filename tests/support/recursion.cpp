@@ -67,6 +67,15 @@ double weigh(const H& h, const FullPath& c, const FullPath& l, const mis::Settin
     return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side);
 }
 
+// A strategy that has no density at the path never asks for its weight.
+bool can_draw(const FullPath& camera, const FullPath& light, const Strategy& k) {
+    for (int i = 1; i < k.s; ++i)
+        if (!(camera.from_camera(i) > 0)) return false;
+    for (int i = k.s; i < camera.edges(); ++i)
+        if (!(light.from_light(i) > 0)) return false;
+    return true;
+}
+
 }  // namespace
 
 std::vector<double> recursive_weights(const FullPath& camera, const FullPath& light,
@@ -79,7 +88,7 @@ std::vector<double> recursive_weights(const FullPath& camera, const FullPath& li
         std::vector<double> weights(last + 1, 0.0);
         for (int s = 1; s <= last + 1; ++s) {
             const Strategy k{s, last + 1 - s};
-            if (is_feasible(camera, k, setting))
+            if (is_feasible(camera, k, setting) && can_draw(camera, light, k))
                 weights[s - 1] = weigh(h, camera, light, inner, k, from_camera, from_light);
         }
         return weights;

@@ -8,7 +8,8 @@
 
 namespace midway::test {
 
-// Element s - 1 belongs to (s, k + 1 - s); 0 where the strategy is not feasible.
+// Element s - 1 belongs to (s, k + 1 - s); 0 where the strategy is not feasible
+// or a step of its own walks has no density.
 std::vector<double> recursive_weights(const FullPath& camera, const FullPath& light,
                                       const OracleSetting& setting, double exponent);
 
