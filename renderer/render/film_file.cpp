@@ -103,6 +103,19 @@ void read_exactly(std::ifstream& in, void* to, std::uint64_t n, const std::strin
     if (static_cast<std::uint64_t>(in.gcount()) != n) refuse("truncated film", path);
 }
 
+std::uint64_t bytes_left(std::ifstream& in) {
+    const auto here = in.tellg();
+    in.seekg(0, std::ios::end);
+    const auto end = in.tellg();
+    in.seekg(here);
+    return static_cast<std::uint64_t>(end - here);
+}
+
+// Of the sums: two words for each half and channel of a pixel, for every exponent.
+std::uint64_t film_bytes(const FilmHeader& h) {
+    return std::uint64_t(h.width) * std::uint64_t(h.height) * 12 * 8 * h.exponents.size();
+}
+
 }  // namespace
 
 std::string settings_json(const RenderSettings& s) {
@@ -165,6 +178,9 @@ FilmFile read_film(const std::string& path) {
     read_exactly(in, text.data(), length, path);
     FilmFile file;
     file.header = parse_header(text, path);
+    // The header may claim any size: no memory is taken for what the file does not hold.
+    if (bytes_left(in) != film_bytes(file.header) + sizeof(std::uint64_t))
+        refuse("truncated film", path);
     std::uint64_t hash = hash_bytes(0, text.data(), text.size()), stored = 0;
     for (size_t i = 0; i < file.header.exponents.size(); ++i) {
         Film film(file.header.width, file.header.height, file.header.unit_exponent);
