@@ -215,6 +215,14 @@ void shading_normals(Builder& b) {
     b.add(rectangle(2.2f, 1.2f), m, placed({0, 1.0, -1.1}));
 }
 
+// Smooth normals over few triangles, on a body that scatters by delta lobes or narrow ones.
+void coarse(Builder& b, const Material& m) {
+    b.add_floor();
+    b.add_panel();
+    b.add_lamp();
+    b.add_ball(m, 5);
+}
+
 void textured_lamp(Builder& b) {
     furnish(b);
     Material m = lambert(vec3(0.3f));
@@ -238,7 +246,19 @@ void camera_in_glass(Builder& b) {
     b.add(sphere(1.2f, 24), glass(0.9f, true), placed({0, 1.3, 3.6}));
 }
 
-// A pane of smooth glass under a point light; the camera sees the floor alone.
+// Light is made inside smooth glass and seen outside: radiance falls by eta^2 on its way, power
+// not.
+void lamp_in_glass(Builder& b) {
+    b.add_floor();
+    b.add_panel();
+    b.add_ball(glass(0, true));
+    Material m = lambert(vec3(0.3f));
+    m.emission = vec3(6, 5, 4);
+    m.double_sided = true;
+    b.add(rectangle(0.5f, 0.5f), m, aimed({0, 0.75, 0.1}, {0.2, 0, 0}));
+}
+
+// A ball of smooth glass under a point light; the camera sees the floor alone.
 void caustic(Builder& b) {
     b.add_floor();
     b.add_light(PunctualKind::point, 2.0f).to_world = placed({0.1, 2.4, 0.2});
@@ -314,9 +334,21 @@ const std::vector<Entry>& entries() {
         {"smooth_thin_glass", [](Builder& b) { sheet(b, glass(0, false)); }, true},
         {"leaf", leaf},
         {"shading_normals", shading_normals},
+        {"coarse_mirror",
+         [](Builder& b) {
+             coarse(b, metal({0.9f, 0.7f, 0.4f}, 0));
+         },
+         true},
+        {"coarse_metal",
+         [](Builder& b) {
+             coarse(b, metal({0.9f, 0.7f, 0.4f}, 0.35f));
+         }},
+        {"coarse_glass", [](Builder& b) { coarse(b, glass(0, true)); }, true},
+        {"coarse_rough_glass", [](Builder& b) { coarse(b, glass(0.6f, true)); }},
         {"textured_lamp", textured_lamp},
         {"thin_lens", thin_lens},
         {"camera_in_glass", camera_in_glass},
+        {"lamp_in_glass", lamp_in_glass, true},
         {"caustic", caustic, false, true},
         {"narrow_metal",
          [](Builder& b) {
