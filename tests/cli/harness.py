@@ -34,8 +34,11 @@ class CliTest(unittest.TestCase):
     def run_midway(self, *arguments, seconds=60, status=0):
         """Runs midway; fails unless it ends in time with this exit status (None: any)."""
         command = [str(program), *map(str, arguments)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds * slow,
-                              stdin=subprocess.DEVNULL, check=False, errors="replace")
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=seconds * slow,
+                                  stdin=subprocess.DEVNULL, check=False, errors="replace")
+        except subprocess.TimeoutExpired:
+            self.fail(f"did not end within {seconds * slow:g} s: {' '.join(command)}")
         if status is not None:
             self.assertEqual(status, done.returncode, f"{' '.join(command)}\n{done.stderr}")
         return done
