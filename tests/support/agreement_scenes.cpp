@@ -1,12 +1,9 @@
 #include "support/agreement_scenes.h"
 
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include "math/warp.h"
-#include "render/coverage.h"
-#include "render/prepare.h"
 
 namespace midway::test {
 namespace {
@@ -391,19 +388,6 @@ AgreementScene make_agreement_scene(const std::string& name) {
         return s;
     }
     throw std::runtime_error("unknown scene (" + name + "); see agreement_scene_names()");
-}
-
-AgreementScene load_agreement_scene(const std::string& path, int max_bounces) {
-    SceneOptions options;
-    options.path = path;
-    const PreparedScene p = prepare_scene(options);
-    AgreementScene s;
-    s.name = std::filesystem::path(path).stem().string();
-    s.scene = p.scene;
-    s.camera = p.camera;
-    s.sees_smooth = scene_features(*p.scene).smooth;
-    s.max_bounces = max_bounces;
-    return s;
 }
 
 }  // namespace midway::test

@@ -19,6 +19,8 @@ struct AgreementScene {
     bool sees_smooth = false;
     // A caustic that only light subpaths find well: `path` and `light` are held to less.
     bool caustic = false;
+    // Naive weights and single families have a variance that can be measured.
+    bool naive = true;
     int max_bounces = 5;
 };
 
@@ -29,7 +31,7 @@ std::vector<std::string> agreement_scene_names();
 std::vector<std::string> oracle_scene_names();
 AgreementScene make_agreement_scene(const std::string& name);
 
-// A scene file as a batch render sees it, with its first camera (a framing one where it has none).
-AgreementScene load_agreement_scene(const std::string& path, int max_bounces);
+// A scene file as a batch render sees it, with its first camera; `sky` as in `--sky`, may be empty.
+AgreementScene load_agreement_scene(const std::string& path, const std::string& sky);
 
 }  // namespace midway::test
