@@ -77,6 +77,7 @@ std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pas
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
     Walk w;
     w.transport = Transport::radiance;
+    w.roulette_start = e.roulette_start;
     w.key = camera_key(e, x, y, pass);
     const vec4 u = sample_4d(w.key, 0);
     const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
@@ -91,6 +92,7 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
                                      std::uint64_t pass) {
     Walk w;
     w.transport = Transport::importance;
+    w.roulette_start = e.roulette_start;
     w.key = light_key(e, subpath, pass);
     const vec4 u = sample_4d(w.key, 0);
     const float pick = sample_4d(w.key, 1).x;
@@ -157,7 +159,7 @@ bool scatter(Walk& w) {
     w.throughput *= s->weight;
     // Refraction scales radiance until the path leaves the glass again; survival ignores that.
     w.roulette_reference *= s->eta_scale;
-    if (w.index >= roulette_start) {
+    if (w.index >= w.roulette_start) {
         const float survival = max_component(w.throughput) / w.roulette_reference;
         if (survival < 1) {
             if (!(u.w < survival)) return false;

@@ -39,13 +39,13 @@ struct Estimator {
     SamplerKind sampler = SamplerKind::sobol;
     std::uint64_t light_subpaths = 1;  // per pass: n of eq. (22)
 
+    // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy keeps
+    // its own expectation, whatever the survival probability.
+    int roulette_start = 4;
+
     mis::Setting mis_setting() const { return {families, double(light_subpaths)}; }
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
 };
-
-// The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy keeps
-// its own expectation, whatever the survival probability.
-inline constexpr int roulette_start = 4;
 
 // A surface vertex of a subpath. Endpoints (lens, light) are never stored.
 struct PathVertex {
@@ -66,6 +66,7 @@ struct Walk {
     Ray ray;
     vec3 throughput{1};
     float roulette_reference = 1;  // throughput at which a walk survives for sure
+    int roulette_start = 4;
 
     // Of the scattering at the previous vertex (or the start), for the next extend().
     vec3 previous_position{0};
