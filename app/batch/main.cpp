@@ -45,6 +45,9 @@ int main(int argc, char** argv) {
         return commands.at(app.get_subcommands().front()->get_name())();
     } catch (const CLI::ParseError& error) {
         return report_usage(app, error);
+    } catch (const std::invalid_argument& error) {
+        fail(error.what());
+        return midway::exit_usage;
     } catch (const std::bad_alloc&) {
         return fail("out of memory (scene or image); use a smaller one");
     } catch (const std::exception& error) {

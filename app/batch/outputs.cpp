@@ -41,7 +41,8 @@ float exposure_of(const std::string& text, const Image& image) {
     float ev = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ev);
     if (error != std::errc() || end != text.data() + text.size())
-        throw std::runtime_error("not an exposure: \"" + text + "\" (--exposure); give EV or auto");
+        throw std::invalid_argument("not an exposure: \"" + text +
+                                    "\" (--exposure); give EV or auto");
     return ev;
 }
 
@@ -76,8 +77,8 @@ void check_outputs(const OutputOptions& o) {
     for (const std::string& path : o.images) {
         const std::string e = ending(path);
         if (e != ".exr" && e != ".png" && e != ".film")
-            throw std::runtime_error("unknown kind of image (" + path +
-                                     "); use .exr, .png or .film");
+            throw std::invalid_argument("unknown kind of image (" + path +
+                                        "); use .exr, .png or .film");
         check_writable(path);
     }
     for (const auto& path : {o.aov, o.strategies, o.stats})

@@ -1,6 +1,8 @@
 // midway render: from a scene to image files.
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <csignal>
 #include <ctime>
 
@@ -51,7 +53,8 @@ Strategy parse_strategy(const std::string& text) {
     Strategy k;
     int n = 0;
     const bool read = std::sscanf(text.c_str(), "%d,%d%n", &k.s, &k.t, &n) == 2;
-    if (!read || static_cast<size_t>(n) != text.size() || k.s < 1 || k.t < 0 || k.s + k.t < 2)
+    if (!read || static_cast<size_t>(n) != text.size() || k.s < 1 || k.t < 0 || k.s + k.t < 2 ||
+        k == Strategy{1, 1})
         usage("--only: \"" + text + "\" is not a strategy S,T");
     return k;
 }
@@ -115,7 +118,7 @@ int debug(const RenderCommand& c, const PreparedScene& p) {
     const Estimator e = make_estimator(*p.scene, p.camera, c.settings);
     const auto x = static_cast<int>(c.debug_pixel[0]), y = static_cast<int>(c.debug_pixel[1]);
     if (!e.crop.contains(x, y))
-        throw std::runtime_error(
+        throw std::invalid_argument(
             fmt::format("pixel outside of the image ({},{}); the image is {}x{}", x, y,
                         c.settings.width, c.settings.height));
     print_sample(e, replay_sample(e, x, y, c.debug_pixel[2]));
@@ -180,6 +183,35 @@ int run(RenderCommand& c) {
     return s.nonfinite.count > 0 || s.fixed.overflow > 0 ? exit_nonfinite : exit_done;
 }
 
+// A whole number from `low` to `high`, in words that fit on a line; CLI11 itself would wrap -1
+// around.
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+    return CLI::Validator(
+        [=](const std::string& text) {
+            std::uint64_t n = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+            const bool read = error == std::errc() && end == text.data() + text.size();
+            if (read && n >= low && n <= high) return std::string();
+            return fmt::format("\"{}\" is not a whole number from {} to {}", text, low, high);
+        },
+        "");
+}
+
+CLI::Validator positive_number() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            double x = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+            const bool read = error == std::errc() && end == text.data() + text.size();
+            if (read && x > 0 && std::isfinite(x)) return std::string();
+            return fmt::format("\"{}\" is not a number above 0", text);
+        },
+        "");
+}
+
+// More samples than any film is good for.
+constexpr std::uint64_t most_samples = std::uint64_t{1} << 40;
+
 void add_image_options(CLI::App& sub, RenderCommand& c) {
     sub.add_option("-o,--output", c.outputs.images, "Image: .exr, .png or .film (repeatable)");
     sub.add_option("--size", c.size, "Image size WxH")->capture_default_str();
@@ -197,14 +229,14 @@ void add_image_options(CLI::App& sub, RenderCommand& c) {
 }
 
 void add_run_options(CLI::App& sub, RenderCommand& c) {
-    sub.add_option("--spp", c.spp, "Samples per pixel")->check(CLI::PositiveNumber);
-    sub.add_option("--time", c.seconds, "Seconds of rendering")->check(CLI::PositiveNumber);
+    sub.add_option("--spp", c.spp, "Samples per pixel")->check(whole_number(1, most_samples));
+    sub.add_option("--time", c.seconds, "Seconds of rendering")->check(positive_number());
     sub.add_option("--threads", c.renderer.threads, "Threads; 0: all processors")
         ->check(CLI::Range(0, 1024));
     sub.add_option("--shard", c.shard, "I/N: render the I-th of N parts, for midway merge");
     sub.add_option("--checkpoint", c.checkpoint.path, "Film that the render can be resumed from");
     sub.add_option("--checkpoint-every", c.checkpoint.every_seconds, "Seconds between checkpoints")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     sub.add_flag("--resume", c.checkpoint.resume, "Go on from --checkpoint where it exists");
 }
 
@@ -221,10 +253,11 @@ Command add_render_command(CLI::App& app) {
         ->delimiter(',');
     sub.add_option("--max-bounces", c->settings.max_bounces, "Longest path, scattering events")
         ->capture_default_str();
-    sub.add_option("--seed", c->settings.seed, "Seed of the random numbers");
+    sub.add_option("--seed", c->settings.seed, "Seed of the random numbers")
+        ->check(whole_number(0, ~std::uint64_t{0}));
     sub.add_option("--sampler", c->sampler, "sobol or independent")->capture_default_str();
     sub.add_option("--clamp", c->settings.clamp, "Largest component of a contribution (biased)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     sub.add_option("--families", c->families, "Of emitter,next-event,light,connect");
     sub.add_option("--only", c->only, "S,T: record this strategy alone (repeatable)")
         ->expected(1)

@@ -34,8 +34,8 @@ SkyDescription chosen_sky(const std::string& text) {
     SkyDescription sky;
     if (const std::optional<vec3> color = parse_color(text)) {
         if (!is_finite(*color) || color->x < 0 || color->y < 0 || color->z < 0)
-            throw std::runtime_error("sky colour is negative or not finite (--sky " + text +
-                                     "); give three numbers from 0 up");
+            throw std::invalid_argument("sky colour is negative or not finite (--sky " + text +
+                                        "); give three numbers from 0 up");
         sky.source = "colour";
         sky.color = *color;
         return sky;
@@ -84,20 +84,21 @@ CameraDescription choose_camera(const SceneOptions& o, PreparedScene& p) {
     if (o.look_at) {
         const auto& v = *o.look_at;
         const dvec3 eye(v[0], v[1], v[2]), target(v[3], v[4], v[5]);
-        if (!(glm::length(eye - target) > 0))
-            throw std::runtime_error(
-                "camera and target are the same point (--look-at); give two points");
+        if (!(glm::length(eye - target) > 0 && glm::length(eye - target) < 1e30))
+            throw std::invalid_argument(
+                "camera and target are not two finite points (--look-at); give two points");
         c = look_at(c, eye, target);
     }
     if (o.fov_degrees) {
         if (!(*o.fov_degrees > 0 && *o.fov_degrees < 180))
-            throw std::runtime_error("field of view out of range (--fov); use 0 to 180 degrees");
+            throw std::invalid_argument("field of view out of range (--fov); use 0 to 180 degrees");
         c.yfov = glm::radians(*o.fov_degrees);
     }
     if (o.aperture_radius) c.aperture_radius = *o.aperture_radius;
     if (o.focus_distance) c.focus_distance = *o.focus_distance;
-    if (!(c.aperture_radius >= 0) || !(c.focus_distance >= 0))
-        throw std::runtime_error("negative lens (--aperture, --focus); use numbers from 0 up");
+    const auto usable = [](double x) { return x >= 0 && std::isfinite(x); };
+    if (!usable(c.aperture_radius) || !usable(c.focus_distance))
+        throw std::invalid_argument("negative lens (--aperture, --focus); use numbers from 0 up");
     return c;
 }
 
@@ -114,9 +115,12 @@ void choose_lights(const SceneOptions& o, PreparedScene& p) {
         d.sky->strength *= o.sky_strength;
     }
     d.lamp_strength = o.lamp_strength;
-    if (!(o.lamp_strength >= 0) || !(o.sky_strength >= 0))
-        throw std::runtime_error(
-            "negative strength (--lamp-strength, --sky-strength); use numbers from 0 up");
+    const auto usable = [](double x) { return x >= 0 && std::isfinite(x); };
+    if (!usable(o.lamp_strength) || !usable(o.sky_strength) ||
+        !std::isfinite(o.sky_rotation_degrees))
+        throw std::invalid_argument(
+            "strength or rotation out of range (--lamp-strength, --sky-strength, --sky-rotation); "
+            "use finite numbers");
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ struct PreparedScene {
     double seconds_load = 0, seconds_build = 0;
 };
 
-// Throws std::runtime_error with one line where the file cannot be rendered.
+// Throws one line: std::runtime_error where the file cannot be rendered, std::invalid_argument where
+// the wishes make no sense.
 PreparedScene prepare_scene(const SceneOptions& options);
 
 }  // namespace midway

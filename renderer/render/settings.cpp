@@ -9,7 +9,7 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what, const std::string& where,
                          const std::string& remedy) {
-    throw std::runtime_error(what + " (" + where + "); " + remedy);
+    throw std::invalid_argument(what + " (" + where + "); " + remedy);
 }
 
 template <class T, size_t N>

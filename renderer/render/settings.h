@@ -31,7 +31,7 @@ std::string_view to_string(Technique t);
 std::string_view to_string(SamplerKind k);
 std::string_view to_string(FilterKind k);
 
-// Throw std::runtime_error with one line for unknown words.
+// Throw std::invalid_argument with one line for unknown words.
 Technique parse_technique(std::string_view text);
 SamplerKind parse_sampler(std::string_view text);
 FilterKind parse_filter(std::string_view text);
@@ -39,7 +39,8 @@ FilterKind parse_filter(std::string_view text);
 // The families that a technique stands for.
 Families families_of(Technique t);
 
-// Checks the settings against each other and binds them to a scene and a camera. Light subpaths per
+// Checks the settings against each other (std::invalid_argument with one line) and binds them to a
+// scene and a camera. Light subpaths per
 // pass are as many as the crop has pixels.
 Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
                          const RenderSettings& settings);
