@@ -68,10 +68,11 @@ std::vector<Variant> variants(const AgreementScene& scene) {
 Effort effort_for(const AgreementScene& scene, const Variant& v) {
     Effort e;
     if (!scene.naive) {
+        const bool technique = v.rounds != 2;
         e.passes = 4;
         e.batches = 128;
-        e.rounds = 4;
-        e.relative_error = 0.003;
+        e.rounds = technique ? 24 : 4;
+        e.relative_error = technique ? v.relative_error : 0.003;
         return e;
     }
     e.passes = by_tier<std::uint64_t>(4, 32);
@@ -93,7 +94,7 @@ void expect_agreement(const AgreementScene& scene) {
     const std::vector<Variant> all = variants(scene);
     int comparisons = 0;
     for (const Variant& v : all) comparisons += static_cast<int>(v.settings.exponents.size());
-    const Measured expected = reference(scene, 1, effort_for(scene, {}));
+    const Measured expected = reference(scene, 1, effort_for(scene, all.front()));
     ASSERT_GT(expected.image.mean, 0) << scene.name << " is black";
     std::uint64_t seed = 100;
     for (Variant v : all) {
@@ -131,6 +132,8 @@ struct Asset {
     std::string file, sky;
     bool caustic = false;
 };
+
+void PrintTo(const Asset& asset, std::ostream* out) { *out << asset.file; }
 
 class AgreementOfAssets : public testing::TestWithParam<Asset> {};
 
