@@ -212,6 +212,10 @@ TEST_F(LightSampling, SkyIsDrawnWhereverItShines) {
         uniform.add(4 * pi_d * luminance(sky_radiance(sky, square_to_sphere(random.next2()))));
     }
     EXPECT_GT(z_test(drawn.estimate(), uniform.estimate()), alarm);
+    // All channels keep one ratio in this map: the mean over the sphere, which the power is made of.
+    const vec3 tint(1, 0.5f, 0.25f);
+    const double mean = sky.mean_radiance / ((1.75 / 3) / luminance(tint)) * 4 * pi_d;
+    EXPECT_NEAR(drawn.estimate().mean / mean, 1, 0.02);
 }
 
 // All five kinds together: the irradiance that next event finds at a point is the one by emission

@@ -28,13 +28,13 @@ void expect_follows(const DensityResult& r, double level) {
 // Finds a density that is 3 % wrong over half of the square.
 TEST_F(Warp, DiscIsUniform) {
     Random random(1);
-    const Grid grid{64, 64};
+    const Grid grid{32, 32};
     const auto draw = [&] {
         const vec2 p = square_to_disc(random.next2());
         return std::optional(dvec2(0.5 + 0.5 * double(p.x), 0.5 + 0.5 * double(p.y)));
     };
     const double density = 4 / 3.14159265358979323846;
-    expect_follows(test_square_density(grid, samples, draw,
+    expect_follows(test_square_density(grid, 2 * samples, draw,
                                        [&](double x, double y) {
                                            return sqr(2 * x - 1) + sqr(2 * y - 1) < 1 ? density
                                                                                       : 0.0;

@@ -37,8 +37,8 @@ struct DensityResult {
     double lost = 0;      // observed share of samples that carried nothing
 };
 
-// Draws `samples` times; an empty result is lost. `discrete` is the probability that the density
-// does not hold on purpose (drawn ones of it come back empty too).
+// Draws `samples` times; an empty result is lost (or one of a Dirac lobe): the share that the density
+// leaves over is expected to be.
 DensityResult test_square_density(const Grid& grid, int samples,
                                   const std::function<std::optional<dvec2>()>& draw,
                                   const SquareDensity& density);
