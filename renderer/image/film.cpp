@@ -12,12 +12,16 @@ Int128 join(std::uint64_t low, std::uint64_t high) {
 }
 
 // Adds with the carry found by the low word itself, so the pair is exact once all adders are done.
-void atomic_add(std::uint64_t* word, Int128 v) {
+// False where the sum wrapped around.
+bool atomic_add(std::uint64_t* word, Int128 v) {
     const auto low = static_cast<std::uint64_t>(v);
     auto high = static_cast<std::uint64_t>(static_cast<UInt128>(v) >> 64);
     const std::uint64_t before = std::atomic_ref(word[0]).fetch_add(low, std::memory_order_relaxed);
     high += before + low < before;
-    if (high) std::atomic_ref(word[1]).fetch_add(high, std::memory_order_relaxed);
+    if (high == 0) return true;
+    const std::uint64_t old = std::atomic_ref(word[1]).fetch_add(high, std::memory_order_relaxed);
+    const std::uint64_t sum = old + high;
+    return ((old ^ sum) & (high ^ sum)) >> 63 == 0;
 }
 
 template <class PixelValue>
@@ -47,7 +51,8 @@ Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts) {
     const int shift = exponent - 150 - unit_exponent;
     Int128 fixed;
     if (shift >= 0) {
-        if (shift > 100) {
+        // Room for the contributions of one sample to be summed before they reach the film.
+        if (shift > 96) {
             ++counts.overflow;
             return 0;
         }
@@ -73,10 +78,12 @@ Film::Film(int width, int height, int unit_exponent)
       unit_exponent_(unit_exponent),
       words_(static_cast<size_t>(width) * height * 12, 0) {}
 
-void Film::add(int half, int x, int y, const FixedRgb& value) {
+bool Film::add(int half, int x, int y, const FixedRgb& value) {
     std::uint64_t* word = &words_[place(half, x, y)];
+    bool fits = true;
     for (int c = 0; c < 3; ++c)
-        if (value[c] != 0) atomic_add(word + 2 * c, value[c]);
+        if (value[c] != 0) fits &= atomic_add(word + 2 * c, value[c]);
+    return fits;
 }
 
 FixedRgb Film::sum(int half, int x, int y) const {

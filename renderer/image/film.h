@@ -38,8 +38,9 @@ class Film {
     int height() const { return height_; }
     int unit_exponent() const { return unit_exponent_; }
 
-    // Safe from many threads at once.
-    void add(int half, int x, int y, const FixedRgb& value);
+    // Safe from many threads at once. False where a sum left 128 bits: the pixel is lost, and the
+    // caller counts it.
+    [[nodiscard]] bool add(int half, int x, int y, const FixedRgb& value);
 
     // The sums of one half of a pixel; call when nobody adds.
     FixedRgb sum(int half, int x, int y) const;

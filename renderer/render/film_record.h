@@ -94,19 +94,22 @@ class FilmRecord {
     void splat(int x, int y, const Contribution& c) {
         if (!usable(c)) return;
         for (size_t i = 0; i < targets_.films->size(); ++i)
-            (*targets_.films)[i].add(half(), x - targets_.crop.x0, y - targets_.crop.y0,
-                                     fixed(weighted(c, i)));
+            add((*targets_.films)[i], x, y, fixed(weighted(c, i)));
         if constexpr (observed) observe(c, x, y);
     }
 
     // Adds the sample's sum to its pixel.
     void end() {
         for (size_t i = 0; i < targets_.films->size(); ++i)
-            (*targets_.films)[i].add(half(), x_ - targets_.crop.x0, y_ - targets_.crop.y0,
-                                     pixel_[i]);
+            add((*targets_.films)[i], x_, y_, pixel_[i]);
     }
 
   private:
+    void add(Film& film, int x, int y, const FixedRgb& value) {
+        if (!film.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, value))
+            ++sums_.fixed.overflow;
+    }
+
     int half() const { return static_cast<int>(pass_ & 1); }
 
     bool usable(const Contribution& c) {
@@ -147,8 +150,8 @@ class FilmRecord {
         }
         if (!targets_.layers || k >= targets_.layers->size() || !(*targets_.layers)[k]) return;
         StrategyFilms& films = *(*targets_.layers)[k];
-        films.weighted.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, fixed(w));
-        films.bare.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, fixed(c.value));
+        add(films.weighted, x, y, fixed(w));
+        add(films.bare, x, y, fixed(c.value));
     }
 
     const FilmTargets& targets_;

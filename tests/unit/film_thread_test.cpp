@@ -38,9 +38,9 @@ std::vector<Splash> splashes(int n) {
 void add(Film& film, const Splash& s) {
     FixedCounts counts;
     const int unit = film.unit_exponent();
-    film.add(s.half, s.x, s.y,
-             {to_fixed(s.value.x, unit, counts), to_fixed(s.value.y, unit, counts),
-              to_fixed(s.value.z, unit, counts)});
+    EXPECT_TRUE(film.add(s.half, s.x, s.y,
+                         {to_fixed(s.value.x, unit, counts), to_fixed(s.value.y, unit, counts),
+                          to_fixed(s.value.z, unit, counts)}));
 }
 
 Film straight_through(const std::vector<Splash>& list) {
@@ -101,12 +101,21 @@ TEST_F(FilmSums, AreExactAcrossThirtyDecades) {
 TEST_F(FilmSums, CarryFromTheLowWordToTheHigh) {
     Film film(1, 1, -90);
     const Int128 low = (Int128(1) << 64) - 1;
-    film.add(0, 0, 0, {low, -1, 0});
-    film.add(0, 0, 0, {1, 1, 0});
+    EXPECT_TRUE(film.add(0, 0, 0, {low, -1, 0}));
+    EXPECT_TRUE(film.add(0, 0, 0, {1, 1, 0}));
     EXPECT_EQ(film.sum(0, 0, 0)[0], Int128(1) << 64);
     EXPECT_EQ(film.sum(0, 0, 0)[1], 0);
-    film.add(0, 0, 0, {-(Int128(1) << 65), 0, 0});
+    EXPECT_TRUE(film.add(0, 0, 0, {-(Int128(1) << 65), 0, 0}));
     EXPECT_EQ(film.sum(0, 0, 0)[0], -(Int128(1) << 64));
+}
+
+TEST_F(FilmSums, SayWhenASumLeavesTheirRange) {
+    Film film(1, 1, -90);
+    const Int128 large = Int128(1) << 126;
+    EXPECT_TRUE(film.add(0, 0, 0, {large, -large, 0}));
+    EXPECT_FALSE(film.add(0, 0, 0, {large, 0, 0}));
+    EXPECT_TRUE(film.add(0, 0, 0, {0, -large, 0}));
+    EXPECT_FALSE(film.add(0, 0, 0, {0, -1, 0}));
 }
 
 TEST_F(FilmSums, RoundToNearestBelowTheUnitAndSaySo) {
