@@ -97,8 +97,11 @@ void Film::merge(const Film& other) {
         throw std::runtime_error(
             "films differ in size or unit (merge); merge films of one scene and one size");
     for (size_t i = 0; i < words_.size(); i += 2) {
-        const Int128 sum =
-            join(words_[i], words_[i + 1]) + join(other.words_[i], other.words_[i + 1]);
+        Int128 sum = 0;
+        if (__builtin_add_overflow(join(words_[i], words_[i + 1]),
+                                   join(other.words_[i], other.words_[i + 1]), &sum))
+            throw std::runtime_error(
+                "sum of two films leaves its range (merge); the films are damaged");
         words_[i] = static_cast<std::uint64_t>(sum);
         words_[i + 1] = static_cast<std::uint64_t>(static_cast<UInt128>(sum) >> 64);
     }
@@ -113,7 +116,9 @@ PassCounts pass_counts(std::uint64_t first, std::uint64_t end) {
 Image resolve(const Film& film, const PassCounts& passes) {
     const double n = static_cast<double>(passes.total());
     return map_pixels(film, [&](int x, int y, int c) {
-        const Int128 sum = film.sum(0, x, y)[c] + film.sum(1, x, y)[c];
+        // A damaged film may hold any bits: its halves are added without overflow, modulo 2^128.
+        const auto sum = static_cast<Int128>(static_cast<UInt128>(film.sum(0, x, y)[c]) +
+                                             static_cast<UInt128>(film.sum(1, x, y)[c]));
         return n > 0 ? from_fixed(sum, film.unit_exponent()) / n : 0.0;
     });
 }

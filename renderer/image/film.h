@@ -45,6 +45,7 @@ class Film {
     // The sums of one half of a pixel; call when nobody adds.
     FixedRgb sum(int half, int x, int y) const;
 
+    // Throws where size or unit differ, or a sum leaves 128 bits.
     void merge(const Film& other);
 
     // Raw words for a file: for every pixel, half and channel the low and the high 64 bits.

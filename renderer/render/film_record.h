@@ -86,7 +86,9 @@ class FilmRecord {
         if (!usable(c)) return;
         for (size_t i = 0; i < targets_.films->size(); ++i) {
             const FixedRgb v = fixed(weighted(c, i));
-            for (int k = 0; k < 3; ++k) pixel_[i][k] += v[k];
+            for (int k = 0; k < 3; ++k)
+                if (__builtin_add_overflow(pixel_[i][k], v[k], &pixel_[i][k]))
+                    ++sums_.fixed.overflow;
         }
         if constexpr (observed) observe(c, x_, y_);
     }

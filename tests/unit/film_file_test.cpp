@@ -35,7 +35,9 @@ FilmFile some_film(std::uint64_t first, std::uint64_t end) {
     for (size_t i = 0; i < 2; ++i) {
         Film film(5, 3, -88);
         Random random(first * 10 + i);
-        for (std::uint64_t& w : film.words()) w = random.below(~0ull);
+        // Any low word; high words small enough for a few films to be summed.
+        for (size_t k = 0; k < film.words().size(); ++k)
+            film.words()[k] = random.below(k % 2 ? ~0ull >> 8 : ~0ull);
         f.films.push_back(film);
     }
     return f;
@@ -154,6 +156,12 @@ TEST_F(FilmFiles, ShardsMergeToTheFilmOfOneRender) {
     EXPECT_EQ(left.header.passes, right.header.passes);
     EXPECT_EQ(pass_counts(left.header).total(), 6u);
     for (int i = 0; i < 2; ++i) EXPECT_EQ(left.films[i].words(), right.films[i].words());
+}
+
+TEST_F(FilmFiles, SumsThatLeaveTheirRangeDoNotMerge) {
+    FilmFile a = some_film(0, 1), b = some_film(1, 2);
+    a.films[1].words()[7] = b.films[1].words()[7] = ~0ull >> 1;
+    EXPECT_THAT(error_of([&] { merge_film(a, b); }), HasSubstr("leaves its range"));
 }
 
 TEST_F(FilmFiles, FilmsOfDifferentRendersDoNotMerge) {
