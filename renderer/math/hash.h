@@ -1,7 +1,9 @@
 // Integer hashes that keys of the random streams go through.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace midway {
 
@@ -15,6 +17,20 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
 
 constexpr std::uint64_t hash_combine(std::uint64_t a, std::uint64_t b) {
     return mix64(a ^ mix64(b));
+}
+
+// Goes on from `state` with n bytes.
+inline std::uint64_t hash_bytes(std::uint64_t state, const void* data, std::size_t n) {
+    const auto* p = static_cast<const unsigned char*>(data);
+    for (; n >= 8; n -= 8, p += 8) {
+        std::uint64_t word;
+        std::memcpy(&word, p, 8);
+        state = hash_combine(state, word);
+    }
+    std::uint64_t tail = 0;
+    // An empty array may have no address.
+    if (n > 0) std::memcpy(&tail, p, n);
+    return hash_combine(state, tail + n);
 }
 
 // Uniform float in [0, 1 - 2^-24] from the upper 24 bits.

@@ -67,18 +67,6 @@ FilmHeader parse_header(const std::string& text, const std::string& path) {
     return h;
 }
 
-std::uint64_t hash_bytes(std::uint64_t state, const void* data, size_t n) {
-    const auto* p = static_cast<const unsigned char*>(data);
-    for (; n >= 8; n -= 8, p += 8) {
-        std::uint64_t word;
-        std::memcpy(&word, p, 8);
-        state = hash_combine(state, word);
-    }
-    std::uint64_t tail = 0;
-    std::memcpy(&tail, p, n);
-    return hash_combine(state, tail + n);
-}
-
 void write(const std::string& path, const FilmHeader& header,
            const std::vector<const Film*>& films) {
     const std::string text = header_json(header);

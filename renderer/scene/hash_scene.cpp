@@ -10,17 +10,7 @@ namespace {
 // Feeds values in a fixed order; padding is never read.
 class Hasher {
   public:
-    void bytes(const void* data, size_t n) {
-        const auto* p = static_cast<const unsigned char*>(data);
-        for (; n >= 8; n -= 8, p += 8) {
-            std::uint64_t word;
-            std::memcpy(&word, p, 8);
-            state_ = hash_combine(state_, word);
-        }
-        std::uint64_t tail = 0;
-        if (n > 0) std::memcpy(&tail, p, n);  // an empty array may have no address
-        state_ = hash_combine(state_, tail + n);
-    }
+    void bytes(const void* data, size_t n) { state_ = hash_bytes(state_, data, n); }
     template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T>
     void add(T v) { bytes(&v, sizeof v); }
