@@ -39,9 +39,8 @@ void make_layers(const Estimator& e, int edges, int unit,
     for (int length = 1; length <= longest; ++length)
         for (int s = 1; s <= length + 1; ++s) {
             const Strategy k{s, length + 1 - s};
-            if (k == Strategy{1, 1} || k == Strategy{1, 0}) continue;
+            if (k == Strategy{1, 1}) continue;
             if (!e.has(k) && !(k == Strategy{2, 0} && e.direct_lamps)) continue;
-            if (k.s == 1 && k.t == 0) continue;
             layers[strategy_index(k)] = std::make_unique<StrategyFilms>(
                 StrategyFilms{Film(e.crop.width(), e.crop.height(), unit),
                               Film(e.crop.width(), e.crop.height(), unit)});

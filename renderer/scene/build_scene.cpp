@@ -143,7 +143,6 @@ void add_area_lights(Scene& s, float lamp_strength) {
             l.kind = LightKind::area;
             l.object = static_cast<int>(k);
             l.triangle = static_cast<int>(t);
-            l.normal = shape.normal;
             l.area = shape.area;
             l.two_sided = m.double_sided;
             l.power = pi_d * shape.area * (l.two_sided ? 2 : 1) *
@@ -230,10 +229,8 @@ Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings)
     s.radius = s.geometry->radius * (1 + 0x1p-20f);
     for (const Object& o : s.geometry->objects) s.has_transparency |= o.may_be_transparent;
     add_area_lights(s, d.lamp_strength);
-    for (size_t i = 0; i < d.lights.size(); ++i) {
-        s.lights.push_back(make_punctual(d.lights[i], s, d.lamp_strength));
-        s.lights.back().description = static_cast<int>(i);
-    }
+    for (const PunctualLight& l : d.lights)
+        s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     if (d.sky) add_sky(s, *d.sky);
     make_light_tables(s);
     return s;

@@ -29,11 +29,9 @@ struct Light {
     vec3 emission{0};   // intensity (scene units), irradiance, or unused for area and sky
     float cos_inner = 1, cos_outer = 0;  // spot
     int object = -1, triangle = -1;      // area
-    vec3 normal{0};                      // area, of the front
     float area = 0;
     bool two_sided = false;
-    double power = 0;      // mean of RGB
-    int description = -1;  // index among the file's punctual lights
+    double power = 0;  // mean of RGB
 };
 
 inline bool is_infinite(LightKind k) { return k == LightKind::directional || k == LightKind::sky; }
