@@ -12,8 +12,8 @@
 #include "math/float_mode.h"
 #include "render/settings.h"
 #include "support/agreement_scenes.h"
-#include "support/drawn_path.h"
-#include "support/recursion.h"
+#include "report/drawn_path.h"
+#include "report/whole_path_recursion.h"
 #include "support/tier.h"
 
 namespace midway::test {
@@ -25,7 +25,7 @@ constexpr int power = 3;  // index of exponent 2
 struct Subject {
     AgreementScene scene;
     Estimator estimator;
-    OracleSetting setting;
+    PathSetting setting;
 };
 
 Subject prepare(AgreementScene scene, const Families& families) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "support/oracle.h"
-#include "support/recursion.h"
+#include "report/direct_form.h"
+#include "report/whole_path_recursion.h"
 #include "support/tier.h"
 
 namespace midway::test {
@@ -22,10 +22,10 @@ struct MadeUp {
     bool hittable = true;
 };
 
-FullPath make_up(std::mt19937_64& random, const MadeUp& m) {
+PathPdfs make_up(std::mt19937_64& random, const MadeUp& m) {
     std::uniform_real_distribution<double> decade(m.low, m.high), unit(0, 1);
     const auto number = [&] { return std::pow(10.0, decade(random)); };
-    FullPath p;
+    PathPdfs p;
     p.vertices.resize(m.edges + 1);
     for (int i = 0; i <= m.edges; ++i) {
         VertexPdfs& v = p.vertices[i];
@@ -44,7 +44,7 @@ double sum_of(const std::vector<double>& weights) {
     return sum;
 }
 
-void expect_same(const FullPath& p, const OracleSetting& setting) {
+void expect_same(const PathPdfs& p, const PathSetting& setting) {
     for (const double b : exponents) {
         const std::vector<double> expected = direct_weights(p, setting, b);
         const std::vector<double> found = recursive_weights(p, p, setting, b);
@@ -71,7 +71,7 @@ TEST(MisRecursion, EqualsTheDirectFormForMadeUpDensities) {
         m.edges = 2 + int(random() % 14);
         m.deltas = i % 3 * 0.25;
         m.hittable = random() % 4 != 0;
-        OracleSetting setting;
+        PathSetting setting;
         setting.families = families_of_bits(1 + random() % 15);
         if (i % 2) setting.families = {};
         setting.light_subpaths = i % 5 ? std::pow(10.0, double(random() % 7)) : 1;
@@ -89,7 +89,7 @@ TEST(MisRecursion, HoldsForEverySubsetOfFamilies) {
             m.edges = 2 + i % 7;
             m.deltas = i % 2 * 0.2;
             m.hittable = i % 3 != 0;
-            OracleSetting setting;
+            PathSetting setting;
             setting.families = families_of_bits(bits);
             setting.light_subpaths = 17;
             ASSERT_NO_FATAL_FAILURE(expect_same(make_up(random, m), setting));
@@ -105,7 +105,7 @@ TEST(MisRecursion, TellsNextEventsDensityFromEmissions) {
         m.high = 0.3;
         m.edges = 2 + i % 5;
         m.deltas = 0;
-        FullPath p = make_up(random, m);
+        PathPdfs p = make_up(random, m);
         p.emission = 0.5;
         p.next_event = p.emission * std::pow(10.0, i % 7 - 3);
         ASSERT_NO_FATAL_FAILURE(expect_same(p, {}));
@@ -114,9 +114,9 @@ TEST(MisRecursion, TellsNextEventsDensityFromEmissions) {
 
 // Every density the same: the weights are the shares of the sample counts.
 TEST(MisRecursion, CountsTheSamplesOfLightTracing) {
-    FullPath p;
+    PathPdfs p;
     p.vertices.resize(5);
-    OracleSetting setting;
+    PathSetting setting;
     setting.light_subpaths = 1000;
     const std::vector<double> w = recursive_weights(p, p, setting, 1);
     EXPECT_NEAR(w[0], 1000.0 / 1004, 1e-12);
@@ -128,8 +128,8 @@ TEST(MisRecursion, NaiveWeightsAreUniformOverFeasibleStrategies) {
     MadeUp m;
     m.edges = 5;
     m.deltas = 0;
-    FullPath p = make_up(random, m);
-    OracleSetting setting;
+    PathPdfs p = make_up(random, m);
+    PathSetting setting;
     setting.light_subpaths = 64;
     for (const double w : recursive_weights(p, p, setting, 0)) EXPECT_NEAR(w, 1.0 / 6, 1e-12);
     p.hittable = false;          // five are left
@@ -141,7 +141,7 @@ TEST(MisRecursion, NaiveWeightsAreUniformOverFeasibleStrategies) {
 
 // A strategy that never draws the path (density zero) counts as infeasible, for exponent 0 as well.
 TEST(MisRecursion, LeavesOutStrategiesOfZeroDensity) {
-    FullPath p;
+    PathPdfs p;
     p.vertices.resize(5);
     p.vertices[4].camera_w = 0;  // the camera's walk never finds the light
     for (const double b : exponents) {
@@ -158,7 +158,7 @@ TEST(MisRecursion, NoRangeOfDensitiesOverflows) {
         m.low = -10;
         m.high = 10;
         m.deltas = 0;
-        const FullPath p = make_up(random, m);
+        const PathPdfs p = make_up(random, m);
         for (const double b : {0.5, 3.0, 8.0, 32.0}) {
             const std::vector<double> expected = direct_weights(p, {}, b);
             const std::vector<double> found = recursive_weights(p, p, {}, b);

@@ -1,9 +1,9 @@
-#include "support/drawn_path.h"
+#include "report/drawn_path.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace midway::test {
+namespace midway {
 namespace {
 
 struct Scattering {
@@ -227,7 +227,7 @@ Scattering delta_pdfs(const Bsdf& bsdf, const vec3& from, const vec3& to, Transp
 }
 
 // The light's densities as the camera's walk finds them that hits it.
-void hit_again(const Estimator& e, const DrawnPath& path, FullPath& own) {
+void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
     const int k = path.edges();
     std::optional<EmitterHit> hit;
     if (path.infinite) {
@@ -293,4 +293,4 @@ OwnPdfs own_pdfs(const Estimator& e, const DrawnPath& path, Transport side) {
     return own;
 }
 
-}  // namespace midway::test
+}  // namespace midway

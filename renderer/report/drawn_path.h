@@ -1,16 +1,17 @@
-// Paths as the estimator draws them from a scene, written out for the oracle: every pdf of a path
-// as the strategy that drew it saw it, and as each end of the path sees it on its own.
+// Paths as the estimator draws them from a scene, written out in full: every pdf of a path as the
+// strategy that drew it saw it, and as each end of the path sees it on its own. For the audit, the
+// path inspector and the tests of weights; the estimator itself never needs a whole path.
 #pragma once
 
 #include <functional>
 
 #include "integrator/estimator.h"
-#include "support/oracle.h"
+#include "report/direct_form.h"
 
-namespace midway::test {
+namespace midway {
 
 struct DrawnPath {
-    FullPath pdfs;              // as seen by the strategy that drew the path
+    PathPdfs pdfs;              // as seen by the strategy that drew the path
     Contribution contribution;  // the estimator's own value and weights
     // Surface vertices 1 .. k-1 (element 0 is unused), and the two ends.
     std::vector<PathVertex> surfaces;
@@ -28,9 +29,9 @@ void draw_paths(const Estimator& e, int x, int y, std::uint64_t pass,
 // from the camera (Transport::radiance) or from the light. `scatters[i]` tells whether vertex i
 // connected to its neighbours has f > 0.
 struct OwnPdfs {
-    FullPath pdfs;
+    PathPdfs pdfs;
     std::vector<bool> scatters;
 };
 OwnPdfs own_pdfs(const Estimator& e, const DrawnPath& path, Transport side);
 
-}  // namespace midway::test
+}  // namespace midway

@@ -1,11 +1,11 @@
-#include "support/recursion.h"
+#include "report/whole_path_recursion.h"
 
-namespace midway::test {
+namespace midway {
 namespace {
 
 // Sums at the vertices of the camera's subpath; element i belongs to vertex i.
 template <class H>
-std::vector<mis::State> camera_states(const H& h, const FullPath& p, const mis::Setting& setting) {
+std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const mis::Setting& setting) {
     const int last = p.edges();
     std::vector<mis::State> states(last + 1);
     states[1] = mis::start_camera(h, setting.light_subpaths, p.from_camera(1));
@@ -19,7 +19,7 @@ std::vector<mis::State> camera_states(const H& h, const FullPath& p, const mis::
 
 // The same from the light; element j belongs to vertex k - j.
 template <class H>
-std::vector<mis::State> light_states(const H& h, const FullPath& p, const mis::Setting& setting) {
+std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const mis::Setting& setting) {
     const int last = p.edges();
     std::vector<mis::State> states(last);
     mis::LightStart start;
@@ -40,7 +40,7 @@ std::vector<mis::State> light_states(const H& h, const FullPath& p, const mis::S
 }
 
 template <class H>
-double weigh(const H& h, const FullPath& c, const FullPath& l, const mis::Setting& setting,
+double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const mis::Setting& setting,
              const Strategy& k, const std::vector<mis::State>& from_camera,
              const std::vector<mis::State>& from_light) {
     const int s = k.s;
@@ -68,7 +68,7 @@ double weigh(const H& h, const FullPath& c, const FullPath& l, const mis::Settin
 }
 
 // A strategy that has no density at the path never asks for its weight.
-bool can_draw(const FullPath& camera, const FullPath& light, const Strategy& k) {
+bool can_draw(const PathPdfs& camera, const PathPdfs& light, const Strategy& k) {
     for (int i = 1; i < k.s; ++i)
         if (!(camera.from_camera(i) > 0)) return false;
     for (int i = k.s; i < camera.edges(); ++i)
@@ -78,8 +78,8 @@ bool can_draw(const FullPath& camera, const FullPath& light, const Strategy& k) 
 
 }  // namespace
 
-std::vector<double> recursive_weights(const FullPath& camera, const FullPath& light,
-                                      const OracleSetting& setting, double exponent) {
+std::vector<double> recursive_weights(const PathPdfs& camera, const PathPdfs& light,
+                                      const PathSetting& setting, double exponent) {
     const int last = camera.edges();
     const mis::Setting inner{setting.families, setting.light_subpaths};
     return mis::with_heuristic(exponent, [&](const auto& h) {
@@ -95,4 +95,4 @@ std::vector<double> recursive_weights(const FullPath& camera, const FullPath& li
     });
 }
 
-}  // namespace midway::test
+}  // namespace midway

@@ -1,9 +1,10 @@
-#include "support/oracle.h"
+#include "report/direct_form.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace midway::test {
+namespace midway {
 namespace {
 
 constexpr long double minus_infinity = -std::numeric_limits<long double>::infinity();
@@ -14,7 +15,7 @@ long double log_of(double x) {
 
 }  // namespace
 
-bool is_feasible(const FullPath& p, const Strategy& k, const OracleSetting& setting) {
+bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     const int last = p.edges();
     if (last - 1 > setting.max_bounces || k.s < 1 || k.t < 0 || k.edges() != last) return false;
     switch (family_of(k)) {
@@ -31,7 +32,7 @@ bool is_feasible(const FullPath& p, const Strategy& k, const OracleSetting& sett
     return false;
 }
 
-long double log_density(const FullPath& p, const Strategy& k, const OracleSetting& setting) {
+long double log_density(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     if (!is_feasible(p, k, setting)) return minus_infinity;
     const int last = p.edges();
     long double sum = k.s == 1 ? log_of(setting.light_subpaths) : 0.0L;
@@ -44,26 +45,31 @@ long double log_density(const FullPath& p, const Strategy& k, const OracleSettin
     return sum;
 }
 
-std::vector<double> direct_weights(const FullPath& p, const OracleSetting& setting,
-                                   double exponent) {
+std::vector<long double> log_densities(const PathPdfs& p, const PathSetting& setting) {
     const int last = p.edges();
     std::vector<long double> logs(last + 1);
-    long double largest = minus_infinity;
-    for (int s = 1; s <= last + 1; ++s) {
-        logs[s - 1] = log_density(p, {s, last + 1 - s}, setting);
-        largest = std::max(largest, logs[s - 1]);
-    }
-    std::vector<double> weights(last + 1, 0.0);
+    for (int s = 1; s <= last + 1; ++s) logs[s - 1] = log_density(p, {s, last + 1 - s}, setting);
+    return logs;
+}
+
+std::vector<double> direct_weights(const std::vector<long double>& logs, double exponent) {
+    std::vector<double> weights(logs.size(), 0.0);
+    const long double largest = *std::max_element(logs.begin(), logs.end());
     if (largest == minus_infinity) return weights;
+    std::vector<long double> powers(logs.size(), 0.0L);
     long double sum = 0;
-    for (long double& l : logs) {
+    for (size_t i = 0; i < logs.size(); ++i) {
         // Infeasible strategies stay out for exponent 0 too.
-        l = l == minus_infinity ? 0.0L
-                                : std::exp(static_cast<long double>(exponent) * (l - largest));
-        sum += l;
+        if (logs[i] == minus_infinity) continue;
+        powers[i] = std::exp(static_cast<long double>(exponent) * (logs[i] - largest));
+        sum += powers[i];
     }
-    for (size_t i = 0; i < logs.size(); ++i) weights[i] = static_cast<double>(logs[i] / sum);
+    for (size_t i = 0; i < logs.size(); ++i) weights[i] = static_cast<double>(powers[i] / sum);
     return weights;
 }
 
-}  // namespace midway::test
+std::vector<double> direct_weights(const PathPdfs& p, const PathSetting& setting, double exponent) {
+    return direct_weights(log_densities(p, setting), exponent);
+}
+
+}  // namespace midway

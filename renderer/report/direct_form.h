@@ -1,5 +1,6 @@
-// The oracle of MIS weights: the direct product form, eq. (4)-(10) of the seed document, in
-// logarithms and long double. It shares no code with integrator/mis.h, which it judges.
+// MIS weights by the direct product form, eq. (4)-(10) of the seed document ("Practical
+// implementation of MIS in Bidirectional Path Tracing"), in logarithms and long double. It shares
+// no code with integrator/mis.h, which the audit and the tests judge by it.
 //
 // A path of k edges has vertices 0 (lens) to k (light). Vertex i is made from the camera's side
 // with density camera_w * camera_g and from the light's side with light_w * light_g, eq. (1)-(3),
@@ -12,7 +13,7 @@
 
 #include "integrator/strategy.h"
 
-namespace midway::test {
+namespace midway {
 
 struct VertexPdfs {
     double camera_w = 1,
@@ -21,7 +22,8 @@ struct VertexPdfs {
     bool delta = false;               // the path scatters here by a delta lobe
 };
 
-struct FullPath {
+// Every pdf of a whole path.
+struct PathPdfs {
     std::vector<VertexPdfs> vertices;
     double emission = 1;    // density of vertex k where a light subpath starts
     double next_event = 1;  // where next event chooses it
@@ -32,22 +34,26 @@ struct FullPath {
     double from_light(int i) const { return vertices[i].light_w * vertices[i].light_g; }
 };
 
-struct OracleSetting {
+// What decides about feasibility and numbers of samples apart from the path.
+struct PathSetting {
     Families families;
     double light_subpaths = 1;
     int max_bounces = 1000;
 };
 
 // Can this strategy make the path at all? (2,0) and (1,1) are no strategies of weighted paths.
-bool is_feasible(const FullPath& path, const Strategy& strategy, const OracleSetting& setting);
+bool is_feasible(const PathPdfs& path, const Strategy& strategy, const PathSetting& setting);
 
 // log(n p) of eq. (9) with the number of samples of eq. (22); -infinity where not feasible.
-long double log_density(const FullPath& path, const Strategy& strategy,
-                        const OracleSetting& setting);
+long double log_density(const PathPdfs& path, const Strategy& strategy, const PathSetting& setting);
 
-// Eq. (10) for every strategy of the path: element s - 1 belongs to (s, k + 1 - s). All zero where
-// no strategy is feasible. Needs at least two edges.
-std::vector<double> direct_weights(const FullPath& path, const OracleSetting& setting,
+// The same for every strategy of a path of k edges, at least two: element s - 1 belongs to
+// (s, k + 1 - s).
+std::vector<long double> log_densities(const PathPdfs& path, const PathSetting& setting);
+
+// Eq. (10) for every strategy. All zero where no strategy is feasible.
+std::vector<double> direct_weights(const std::vector<long double>& log_densities, double exponent);
+std::vector<double> direct_weights(const PathPdfs& path, const PathSetting& setting,
                                    double exponent);
 
-}  // namespace midway::test
+}  // namespace midway
