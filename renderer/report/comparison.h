@@ -54,8 +54,8 @@ struct ErrorCurve {
 // The curve of the mean over the seeds, at common times; lower and upper bound its 95 % interval.
 struct BandPoint {
     double seconds = 0;
-    double spp = 0;  // mean over the seeds
-    Interval relmse, relmse_trimmed;
+    double cpu_seconds = unknown_number, spp = 0;  // mean over the seeds
+    Interval relmse, relmse_trimmed, mse, smape;
 };
 
 // Straight line through log relMSE of the mean curve; the slope against seconds and against samples
