@@ -55,12 +55,17 @@ def resolve(root, path, name):
     return None
 
 
+def room_of(path):
+    """The folder whose files may include one another; the window's panels share its room."""
+    return "app/viewer" if path.startswith("app/viewer/") else path.rsplit("/", 1)[0]
+
+
 def check_own(path, target, name):
     """What is wrong with `path` including our file `target`, or None."""
     if ".." in name.split("/"):
         return "is written with ..; write it from renderer/"
     source, destination = layer_of(path), layer_of(target)
-    same_room = path.rsplit("/", 1)[0] == target.rsplit("/", 1)[0]
+    same_room = room_of(path) == room_of(target)
     if path.startswith("app/batch/") and target.startswith("app/viewer/"):
         return "takes the window into the program without one"
     if same_room or source > destination:
