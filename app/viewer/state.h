@@ -12,6 +12,7 @@
 #include "image/tonemap.h"
 #include "render/prepare.h"
 #include "render/settings.h"
+#include "viewer/camera_control.h"
 
 namespace midway {
 
@@ -21,9 +22,9 @@ struct Snapshot;  // render/live_render.h
 // render, all of them through restart_render() in loop.cpp.
 struct Change {
     bool display = false;   // how the image is shown: exposure, curve, channel, zoom
-    bool camera = false;    // App::camera.now
+    bool camera = false;    // what Document::options say of the camera (camera_control.h)
     bool settings = false;  // App::render
-    bool scene = false;     // Document::options or Document::edited
+    bool scene = false;     // the rest of Document::options, or Document::edited
 
     Change& operator|=(const Change& o) {
         display |= o.display, camera |= o.camera, settings |= o.settings, scene |= o.scene;
@@ -37,7 +38,7 @@ struct Change {
 struct Document {
     std::string path;                               // empty before the first file is open
     std::shared_ptr<const PreparedScene> prepared;  // null before; never changed once here
-    SceneOptions options;                           // wishes beside the file: sky, lamp strength
+    SceneOptions options;                           // wishes beside the file: sky, lamps, camera
     std::optional<SceneDescription> edited;         // set with Change::scene to edit the scene
     bool has_edits = false;                         // the file alone no longer makes this image
     std::vector<std::string> warnings;
@@ -65,12 +66,17 @@ struct RenderChoices {
     bool paused = false;
 };
 
-// The camera in use: starts as the file's and is then a person's.
+// Moving the camera. Where it is stands in Document::options, as for `midway render`; absent there,
+// it is the file's (document.prepared->camera).
 struct CameraChoices {
-    CameraDescription now;
-    dvec3 pivot{0};       // what orbiting turns about
-    bool moving = false;  // a drag or a flight is under way: resolution may drop
-    std::vector<CameraDescription> bookmarks;
+    dvec3 pivot{0};          // what orbiting turns about
+    bool moving = false;     // a drag or a flight is under way: resolution may drop
+    bool animating = false;  // a glide or a flight: draw again without waiting for an event
+    struct Bookmark {
+        std::string name;
+        View view;
+    };
+    std::vector<Bookmark> bookmarks;
 };
 
 enum class Channel { image, albedo, normal, depth, object, error, samples };
