@@ -1,0 +1,121 @@
+// Rendering for a window: jobs go in, snapshots come out, and nobody waits. One coordinator thread
+// takes the newest job and renders it with workers at low priority: first an image of few, large
+// pixels that is ready within some 20 ms, then finer and finer ones, at last the image itself, pass
+// by pass. At scale 1 the passes are those of ProgressiveRenderer, so an image of n passes has the
+// bits of `midway render --spp n`. Nothing runs and nothing wakes while a job is finished or
+// paused.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "render/live_channels.h"
+#include "render/render_control.h"
+#include "render/renderer.h"
+
+namespace midway {
+
+// What the window sees. Images are never changed once they are here; copying a Snapshot is cheap.
+struct Snapshot {
+    std::uint64_t job = 0;
+    int scale = 1;              // one pixel of the images stands for scale x scale of the job's
+    int width = 0, height = 0;  // of the job's whole image
+    PixelRect crop;             // of the job
+    ImagePlacement placement;   // where the images below lie in the whole image
+    std::vector<double> exponents;
+    // One of each per exponent, from the same paths. Variances (of the mean, resolve_variance) are
+    // null with fewer than two passes.
+    std::vector<std::shared_ptr<const Image>> images, variances;
+    std::uint64_t passes = 0;             // in these images
+    double seconds = 0, cpu_seconds = 0;  // rendering this job, pauses and coarse images excluded
+    RenderStatistics statistics;          // of these images
+    double samples_per_second = 0;        // pixel samples, since the snapshot before
+    double rays_per_second = 0;
+    bool finished = false;  // a limit of the job is reached
+    bool paused = false;
+    std::string error;  // one line where the job cannot be rendered; there are no images then
+};
+
+// How fast the last edits were answered.
+struct LiveLatency {
+    std::uint64_t job = 0;           // the job whose first image was published last
+    double first_image_seconds = 0;  // from its submit() to that image
+    double stop_seconds = 0;         // from the last submit() that stopped workers to their rest
+};
+
+class LiveRender {
+  public:
+    // `published` is called after every new snapshot, from the coordinator's thread or the thread
+    // that called pause(); it must not block.
+    explicit LiveRender(std::function<void()> published = {});
+    ~LiveRender();
+    LiveRender(const LiveRender&) = delete;
+    LiveRender& operator=(const LiveRender&) = delete;
+
+    // Replaces the job that runs; returns the new job's number, counted from 1. A job whose first
+    // image is not out and that is younger than 50 ms may finish that image, so that a stream of
+    // edits shows something.
+    std::uint64_t submit(LiveJob job);
+
+    // The newest; null before the first.
+    std::shared_ptr<const Snapshot> snapshot() const;
+
+    // Workers sleep where they are. A job submitted meanwhile is shown up to its first pass of full
+    // size, then sleeps.
+    void pause(bool paused);
+
+    // Goes on with a finished job until these limits (absent: none); its samples are kept.
+    void set_limits(std::optional<std::uint64_t> passes, std::optional<double> seconds);
+
+    // Albedo, normal, depth and object of the current job and of later ones, while wanted.
+    void request_channels(bool wanted);
+    std::shared_ptr<const ChannelSnapshot> channels() const;
+
+    // Stops the job and forgets the snapshots: the scene is no longer held.
+    void clear();
+
+    LiveLatency latency() const;
+
+  private:
+    using Clock = RenderControl::Clock;
+    struct Pending {
+        std::uint64_t number = 0;
+        LiveJob job;
+        Clock::time_point submitted;
+    };
+    struct Running;
+
+    void coordinate();
+    void render_job(Pending pending);
+    void first_images(Running& r);
+    void accumulate(Running& r);
+    bool render(Running& r, std::uint64_t passes);
+    void publish(Running& r);
+    void fail(const Pending& pending, const std::string& error);
+    void show(std::shared_ptr<const Snapshot> snapshot);
+
+    std::function<void()> published_;
+    RenderControl control_;
+    LiveChannels channels_;
+    LiveCost cost_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    // Under the mutex.
+    bool quit_ = false, paused_ = false, channels_wanted_ = false;
+    std::uint64_t last_number_ = 0;
+    std::optional<Pending> pending_;
+    std::optional<LiveJob> current_;
+    std::shared_ptr<const Snapshot> snapshot_;
+    LiveLatency latency_;
+
+    std::jthread coordinator_;  // last: ends before what it uses
+};
+
+}  // namespace midway
