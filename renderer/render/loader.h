@@ -13,18 +13,14 @@
 #include <vector>
 
 #include "render/prepare.h"
-#include "scene/load_hooks.h"
 
 namespace midway {
 
 struct LoadStatus {
     bool busy = false;
-    LoadStage stage = LoadStage::reading;
-    double done = 0;  // of the whole load, 0 to 1; a rough share
+    std::string stage;  // in words, for a progress bar: "building the tree"
+    double done = 0;    // of the whole load, 0 to 1; a rough share
 };
-
-// In words, for a progress bar: "reading", "building the tree", ...
-std::string_view describe(LoadStage stage);
 
 struct LoadResult {
     std::uint64_t request = 0;
@@ -35,6 +31,10 @@ struct LoadResult {
         files;                // the scene's, in the order they were opened; also of a failure
     std::uint64_t stamp = 0;  // file_stamp(files), from before they were read
 };
+
+// The files that a scene is read from: its own first, then those it names and the sky's. Also where
+// some of them do not exist or the scene is broken; throws nothing.
+std::vector<std::string> scene_files(const SceneOptions& options);
 
 // Sizes and times of change of these files as one number: another number, another content. A file
 // that does not exist has its own.
@@ -66,7 +66,7 @@ class Loader {
 
     void coordinate();
     LoadResult load_now(const Request& request);
-    void report(std::uint64_t request, LoadStage stage, double done);
+    void report(std::uint64_t request, const char* stage, double done);
 
     std::function<void()> changed_;
     std::atomic<std::uint64_t> wanted_{0};  // the newest request's number; 0: none

@@ -16,7 +16,7 @@
 namespace midway {
 
 struct RenderLimits {
-    std::optional<std::uint64_t> passes;  // samples per pixel
+    std::optional<std::uint64_t> spp;  // samples per pixel
     std::optional<double> seconds;
     bool operator==(const RenderLimits&) const = default;
 };
