@@ -10,13 +10,11 @@
 #include <vector>
 
 #include "image/tonemap.h"
-#include "render/prepare.h"
-#include "render/settings.h"
+#include "render/live_render.h"
+#include "render/session.h"
 #include "viewer/camera_control.h"
 
 namespace midway {
-
-struct Snapshot;  // render/live_render.h
 
 // What a panel, a key or a line of a script changed. Only camera, settings and scene restart the
 // render, all of them through restart_render() in loop.cpp.
@@ -36,11 +34,13 @@ struct Change {
 
 // The file that is open. A file that cannot be read leaves all but `error` as it was.
 struct Document {
-    std::string path;                               // empty before the first file is open
+    std::string path;                               // .gltf, .glb or .midway; empty at first
     std::shared_ptr<const PreparedScene> prepared;  // null before; never changed once here
     SceneOptions options;                           // wishes beside the file: sky, lamps, camera
     std::optional<SceneDescription> edited;         // set with Change::scene to edit the scene
     bool has_edits = false;                         // the file alone no longer makes this image
+    std::vector<std::string> files;                 // what the scene was read from, and
+    std::uint64_t stamp = 0;                        // file_stamp(files) then
     std::vector<std::string> warnings;
     std::vector<std::string> not_covered;  // by the technique in use, in words
     std::string loading;                   // path under way, empty where none is
@@ -49,18 +49,14 @@ struct Document {
     std::string error;                     // one line; empty where all is well
 };
 
-struct RenderLimits {
-    std::optional<std::uint64_t> spp;  // stop there; absent: go on for ever
-    std::optional<double> seconds;
-};
-
-// What a person chooses about light transport. `settings.exponents` and size are derived from the
-// other members when a render starts.
+// What a person chooses about light transport. `settings.exponents` is derived from the other
+// members when a render starts. The image has settings.width x height pixels; with `fit_window`
+// they follow the view when the window (not a panel) changes its size.
 struct RenderChoices {
     RenderSettings settings;
     double exponent = 2;      // of the slider, 0..8
     bool same_paths = false;  // exponents 0, 1, 2 and the slider's from the same paths
-    bool fit_view = true;     // image as large as the view; else settings.width x height
+    bool fit_window = true;
     RenderLimits limits;
     int threads = 0;  // 0: all processors
     bool paused = false;
@@ -147,10 +143,19 @@ struct App {
     CameraChoices camera;
     DisplayChoices display;
     Ui ui;
-    std::shared_ptr<const Snapshot> snapshot;  // the newest; null before the first
-    std::vector<Action> actions;               // asked for in this frame
+    std::shared_ptr<const Snapshot> snapshot;         // the newest; null before the first
+    std::shared_ptr<const ChannelSnapshot> channels;  // albedo ... while one is shown
+    std::vector<Action> actions;                      // asked for in this frame
     Timings timings;
 };
+
+// Which image of the snapshot belongs to the slider's exponent; 0 where none does (yet).
+inline size_t shown_exponent(const App& app) {
+    if (app.snapshot)
+        for (size_t i = 0; i < app.snapshot->exponents.size(); ++i)
+            if (app.snapshot->exponents[i] == app.render.exponent) return i;
+    return 0;
+}
 
 inline void ask(App& app, ActionKind kind, std::string text = {}) {
     app.actions.push_back({kind, std::move(text)});
