@@ -1,8 +1,6 @@
 // midway render: from a scene to image files.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <csignal>
 #include <ctime>
 
@@ -13,6 +11,7 @@
 #include "render/coverage.h"
 #include "render/debug_sample.h"
 #include "render/waves.h"
+#include "render_options.h"
 
 namespace midway {
 namespace {
@@ -27,37 +26,15 @@ struct RenderCommand {
     OutputOptions outputs;
     std::optional<std::uint64_t> spp;
     std::optional<double> seconds;
-    std::string technique = "bdpt", sampler = "sobol", filter = "blackman-harris", size = "512x512";
-    std::optional<std::string> families;
+    RenderWords words;
+    std::string technique = "bdpt";
     std::vector<double> exponents;
-    std::vector<int> crop;
-    std::vector<std::string> only;
     std::vector<std::uint64_t> debug_pixel;
     CheckpointOptions checkpoint;
     std::string shard;
     int layer_edges = 8;
     bool quiet = false;
 };
-
-// A value that does not parse is wrong usage (exit 2), like an unknown option.
-[[noreturn]] void usage(const std::string& message) { throw CLI::ValidationError(message); }
-
-void parse_size(const std::string& text, RenderSettings& s) {
-    int n = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &s.width, &s.height, &n) != 2 ||
-        static_cast<size_t>(n) != text.size())
-        usage("--size: \"" + text + "\" is not WxH");
-}
-
-Strategy parse_strategy(const std::string& text) {
-    Strategy k;
-    int n = 0;
-    const bool read = std::sscanf(text.c_str(), "%d,%d%n", &k.s, &k.t, &n) == 2;
-    if (!read || static_cast<size_t>(n) != text.size() || k.s < 1 || k.t < 0 || k.s + k.t < 2 ||
-        k == Strategy{1, 1})
-        usage("--only: \"" + text + "\" is not a strategy S,T");
-    return k;
-}
 
 // --shard I/N: the I-th of N nearly equal blocks of passes.
 void choose_shard(RenderCommand& c) {
@@ -75,24 +52,10 @@ void choose_shard(RenderCommand& c) {
 }
 
 // Turns the words of the command line into settings.
-void finish_settings(RenderCommand& c) {
-    RenderSettings& s = c.settings;
-    const size_t colon = c.technique.find(':');
-    try {
-        s.technique = parse_technique(c.technique.substr(0, colon));
-        if (colon != std::string::npos) s.exponents = {std::stod(c.technique.substr(colon + 1))};
-        if (!c.exponents.empty()) s.exponents = c.exponents;
-        s.sampler = parse_sampler(c.sampler);
-        s.filter = parse_filter(c.filter);
-        if (c.families) s.families = parse_families(*c.families);
-    } catch (const std::logic_error&) {
-        usage("--technique: \"" + c.technique + "\" has no number after the colon");
-    } catch (const std::runtime_error& e) {
-        usage(e.what());
-    }
-    parse_size(c.size, s);
-    if (c.crop.size() == 4) s.crop = PixelRect{c.crop[0], c.crop[1], c.crop[2], c.crop[3]};
-    for (const std::string& text : c.only) s.only.push_back(parse_strategy(text));
+void finish_command(RenderCommand& c) {
+    choose_technique(c.technique, c.settings);
+    if (!c.exponents.empty()) c.settings.exponents = c.exponents;
+    finish_settings(c.words, c.settings);
     choose_shard(c);
     if (c.checkpoint.resume && (c.outputs.strategies || c.outputs.stats))
         usage("--resume: strategy layers and statistics are not in a checkpoint");
@@ -160,7 +123,7 @@ RunFigures render_all(const RenderCommand& c, const PreparedScene& p, Progressiv
 int run(RenderCommand& c) {
     if (c.outputs.images.empty() && c.debug_pixel.empty())
         usage("-o: name at least one output (.exr, .png or .film)");
-    finish_settings(c);
+    finish_command(c);
     check_outputs(c.outputs);
     const PreparedScene p = prepare_scene(c.scene);
     if (!c.quiet) print_warnings(p.warnings);
@@ -183,40 +146,11 @@ int run(RenderCommand& c) {
     return s.nonfinite.count > 0 || s.fixed.overflow > 0 ? exit_nonfinite : exit_done;
 }
 
-// A whole number from `low` to `high`, in words that fit on a line; CLI11 itself would wrap -1
-// around.
-CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
-    return CLI::Validator(
-        [=](const std::string& text) {
-            std::uint64_t n = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-            const bool read = error == std::errc() && end == text.data() + text.size();
-            if (read && n >= low && n <= high) return std::string();
-            return fmt::format("\"{}\" is not a whole number from {} to {}", text, low, high);
-        },
-        "");
-}
-
-CLI::Validator positive_number() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            double x = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-            const bool read = error == std::errc() && end == text.data() + text.size();
-            if (read && x > 0 && std::isfinite(x)) return std::string();
-            return fmt::format("\"{}\" is not a number above 0", text);
-        },
-        "");
-}
-
 // More samples than any film is good for.
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 40;
 
 void add_image_options(CLI::App& sub, RenderCommand& c) {
     sub.add_option("-o,--output", c.outputs.images, "Image: .exr, .png or .film (repeatable)");
-    sub.add_option("--size", c.size, "Image size WxH")->capture_default_str();
-    sub.add_option("--crop", c.crop, "X0,Y0,X1,Y1")->delimiter(',')->expected(4);
-    sub.add_option("--filter", c.filter, "box, gaussian or blackman-harris")->capture_default_str();
     sub.add_option("--exposure", c.outputs.exposure, "EV of PNG files, or auto");
     sub.add_option("--aov", c.outputs.aov, "EXR with albedo, normal, depth, object, variance");
     sub.add_option("--strategies", c.outputs.strategies, "EXR with a layer for every strategy");
@@ -231,8 +165,7 @@ void add_image_options(CLI::App& sub, RenderCommand& c) {
 void add_run_options(CLI::App& sub, RenderCommand& c) {
     sub.add_option("--spp", c.spp, "Samples per pixel")->check(whole_number(1, most_samples));
     sub.add_option("--time", c.seconds, "Seconds of rendering")->check(positive_number());
-    sub.add_option("--threads", c.renderer.threads, "Threads; 0: all processors")
-        ->check(CLI::Range(0, 1024));
+    add_threads_option(sub, c.renderer.threads);
     sub.add_option("--shard", c.shard, "I/N: render the I-th of N parts, for midway merge");
     sub.add_option("--checkpoint", c.checkpoint.path, "Film that the render can be resumed from");
     sub.add_option("--checkpoint-every", c.checkpoint.every_seconds, "Seconds between checkpoints")
@@ -251,18 +184,7 @@ Command add_render_command(CLI::App& app) {
         ->capture_default_str();
     sub.add_option("--exponent", c->exponents, "Exponent of the MIS weights; a list: same paths")
         ->delimiter(',');
-    sub.add_option("--max-bounces", c->settings.max_bounces, "Longest path, scattering events")
-        ->capture_default_str();
-    sub.add_option("--seed", c->settings.seed, "Seed of the random numbers")
-        ->check(whole_number(0, ~std::uint64_t{0}));
-    sub.add_option("--sampler", c->sampler, "sobol or independent")->capture_default_str();
-    sub.add_option("--clamp", c->settings.clamp, "Largest component of a contribution (biased)")
-        ->check(positive_number());
-    sub.add_option("--families", c->families, "Of emitter,next-event,light,connect");
-    sub.add_option("--only", c->only, "S,T: record this strategy alone (repeatable)")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    sub.add_flag("--unweighted", c->settings.unweighted, "Record bare estimates");
+    add_settings_options(sub, c->settings, c->words);
     add_run_options(sub, *c);
     sub.add_flag("--quiet", c->quiet, "No progress, no warnings");
     return [c] { return run(*c); };
