@@ -33,6 +33,8 @@ std::vector<size_t> counted_pixels(const Image& test, const Image& reference,
                                    const DiffOptions& options) {
     check_size(test, reference, "image");
     if (options.mask) check_size(*options.mask, reference, "mask");
+    if (options.reference_variance)
+        check_size(*options.reference_variance, reference, "variance of the reference");
     if (options.epsilon && !(*options.epsilon >= 0 && std::isfinite(*options.epsilon)))
         throw std::runtime_error("cannot compare images: wrong epsilon (" +
                                  std::to_string(*options.epsilon) +
@@ -45,6 +47,8 @@ std::vector<size_t> counted_pixels(const Image& test, const Image& reference,
         }
         check_finite(test, i, "image");
         check_finite(reference, i, "reference");
+        if (options.reference_variance)
+            check_finite(*options.reference_variance, i, "variance of the reference");
         counted.push_back(i);
     }
     if (counted.empty())
@@ -63,22 +67,22 @@ double mean_luminance(const Image& image, const std::vector<size_t>& counted) {
     return sum / static_cast<double>(counted.size());
 }
 
-// Mean of all but the largest 0.1 %, summed in the given order. Of values equal to the largest one
-// kept, the first stay.
-double trimmed_mean(const std::vector<double>& values) {
-    const size_t kept = values.size() - values.size() / 1000;
-    std::vector<double> sorted = values;
+// Mean of `values` without those whose `keys` are the largest 0.1 %, summed in the given order. Of
+// keys equal to the largest one kept, the first stay.
+double trimmed_mean(const std::vector<double>& keys, const std::vector<double>& values) {
+    const size_t kept = keys.size() - keys.size() / 1000;
+    std::vector<double> sorted = keys;
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(kept - 1),
                      sorted.end());
     const double limit = sorted[kept - 1];
     size_t equal = kept;
-    for (double v : values)
-        if (v < limit) --equal;
+    for (double k : keys)
+        if (k < limit) --equal;
     double sum = 0;
-    for (double v : values) {
-        if (v > limit || (v == limit && equal == 0)) continue;
-        if (v == limit) --equal;
-        sum += v;
+    for (size_t i = 0; i < keys.size(); ++i) {
+        if (keys[i] > limit || (keys[i] == limit && equal == 0)) continue;
+        if (keys[i] == limit) --equal;
+        sum += values[i];
     }
     return sum / static_cast<double>(kept);
 }
@@ -93,26 +97,31 @@ ImageError compare_images(const Image& test, const Image& reference, const DiffO
     const double epsilon = options.epsilon.value_or(0.01 * sqr(reference_mean));
 
     ImageError error;
-    std::vector<double> relative;
+    std::vector<double> bare, relative;  // with and without the reference's variance
+    bare.reserve(counted.size());
     relative.reserve(counted.size());
     double relative_sum = 0;
     for (size_t i : counted) {
-        double pixel = 0;
+        double pixel = 0, noise = 0;
         for (int c = 0; c < 3; ++c) {
             const double x = test.pixels[i][c], r = reference.pixels[i][c];
             const double square = sqr(x - r);
-            error.mse += square;
+            const double v =
+                options.reference_variance ? options.reference_variance->pixels[i][c] : 0;
+            error.mse += square - v;
             pixel += quotient(square, r * r + epsilon);
+            noise += quotient(v, r * r + epsilon);
             error.smape += quotient(std::abs(x - r), std::abs(x) + std::abs(r));
         }
-        relative.push_back(pixel / 3);
-        relative_sum += pixel / 3;
+        bare.push_back(pixel / 3);
+        relative.push_back((pixel - noise) / 3);
+        relative_sum += relative.back();
     }
     error.mse /= 3 * count;
-    error.rmse = std::sqrt(error.mse);
+    error.rmse = std::sqrt(std::max(0.0, error.mse));
     error.smape /= 3 * count;
     error.relmse = relative_sum / count;
-    error.relmse_trimmed = trimmed_mean(relative);
+    error.relmse_trimmed = trimmed_mean(bare, relative);
     if (test_mean != 0 || reference_mean != 0) error.mean_ratio = test_mean / reference_mean;
     if (options.flip) {
         const std::vector<float> map = flip_map(test, reference);

@@ -9,6 +9,13 @@
 // flip               mean of flip_map (image/flip.h) of the whole images over the pixels that count
 // mean_ratio         mean luminance of x over m; 1 where both are 0
 //
+// A reference that is itself a noisy mean of independent parts adds its own variance v to every
+// square. Where v is given, (x - r)^2 - v takes the square's place in mse, relmse and
+// relmse_trimmed: its expectation is x's own error, whatever the noise of r (of two halves a, b it
+// is the product (x - a)(x - b)). The denominators keep the noise of r, which shifts relmse by
+// some 6 v^2 / r^4 only. mse and relmse may then fall below 0; rmse is 0 there. Pixels are trimmed
+// by the bare square.
+//
 // A quotient 0 / 0 counts as 0. Throws std::runtime_error with one line "WHAT (WHERE); REMEDY" for
 // images that cannot be compared: sizes differ, no pixel counts, or one that counts is not finite.
 #pragma once
@@ -27,6 +34,7 @@ struct DiffOptions {
     std::optional<Image> mask;      // pixels that are not black count; all without a mask
     std::optional<double> epsilon;  // relMSE's denominator is r^2 + epsilon
     bool flip = true;               // most of the time goes into it; left at 0 where not wanted
+    const Image* reference_variance = nullptr;  // of its pixels, estimated
 };
 
 ImageError compare_images(const Image& test, const Image& reference,
