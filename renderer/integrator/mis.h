@@ -12,6 +12,9 @@
 // Beyond the seed: a term counts only if its strategy is *feasible* (DESIGN, section 2), which is
 // how families, delta vertices and delta lights enter; next event and emission may have different
 // densities; x^b of a zero density is zero for every b, also 0.
+//
+// The renderer computes all of it in double. A heuristic names its number type `Real`, so that the
+// audit can run the same lines in float and show where they would have failed.
 #pragma once
 
 #include <cmath>
@@ -22,48 +25,71 @@
 namespace midway::mis {
 
 // A positive number by its natural logarithm: powers of pdfs for large exponents overflow double.
+template <class Real>
 struct LogNumber {
-    double log = -std::numeric_limits<double>::infinity();
+    Real log = -std::numeric_limits<Real>::infinity();
 
-    static LogNumber zero() { return {}; }
-    static LogNumber one() { return {0.0}; }
     friend LogNumber operator*(LogNumber a, LogNumber b) { return {a.log + b.log}; }
     friend LogNumber operator/(LogNumber a, LogNumber b) { return {a.log - b.log}; }
     friend LogNumber operator+(LogNumber a, LogNumber b) {
-        const double high = std::max(a.log, b.log), low = std::min(a.log, b.log);
-        if (low == -std::numeric_limits<double>::infinity()) return {high};
+        const Real high = std::max(a.log, b.log), low = std::min(a.log, b.log);
+        if (low == -std::numeric_limits<Real>::infinity()) return {high};
         return {high + std::log1p(std::exp(low - high))};
     }
 };
 
-inline double to_double(double x) { return x; }
-inline double to_double(LogNumber x) { return std::exp(x.log); }
+template <class Real>
+double to_double(Real x) {
+    return x;
+}
+template <class Real>
+double to_double(LogNumber<Real> x) {
+    return std::exp(x.log);
+}
 
 // x^b of the four kinds of heuristic. Each has the number type that its sums are kept in.
+template <class R = double>
 struct Uniform {
-    using Number = double;
-    Number operator()(double x) const { return x > 0 ? 1.0 : 0.0; }
+    using Real = R;
+    using Number = R;
+    Number operator()(Real x) const { return x > 0 ? Real(1) : Real(0); }
 };
+template <class R = double>
 struct Balance {
-    using Number = double;
-    Number operator()(double x) const { return x; }
+    using Real = R;
+    using Number = R;
+    Number operator()(Real x) const { return x; }
 };
+template <class R = double>
 struct Power2 {
-    using Number = double;
-    Number operator()(double x) const { return x * x; }
+    using Real = R;
+    using Number = R;
+    Number operator()(Real x) const { return x * x; }
 };
+template <class R = double>
 struct General {
-    using Number = LogNumber;
-    double exponent = 1;
-    Number operator()(double x) const {
-        return x > 0 ? LogNumber{exponent * std::log(x)} : LogNumber::zero();
-    }
+    using Real = R;
+    using Number = LogNumber<R>;
+    Real exponent = 1;
+    Number operator()(Real x) const { return x > 0 ? Number{exponent * std::log(x)} : Number{}; }
 };
 
-inline double from_bits(double raw, double) { return raw; }
-inline LogNumber from_bits(double raw, LogNumber) { return {raw}; }
-inline double to_bits(double x) { return x; }
-inline double to_bits(LogNumber x) { return x.log; }
+template <class Real>
+Real from_bits(double raw, Real) {
+    return static_cast<Real>(raw);
+}
+template <class Real>
+LogNumber<Real> from_bits(double raw, LogNumber<Real>) {
+    return {static_cast<Real>(raw)};
+}
+template <class Real>
+double to_bits(Real x) {
+    return x;
+}
+template <class Real>
+double to_bits(LogNumber<Real> x) {
+    return x.log;
+}
 
 // vcm and vc of one exponent, as a vertex stores them (values, or logarithms for General).
 struct State {
@@ -71,12 +97,12 @@ struct State {
 };
 
 // Calls `use` with the heuristic of exponent b.
-template <class Use>
+template <class Real = double, class Use>
 decltype(auto) with_heuristic(double exponent, Use&& use) {
-    if (exponent == 0) return use(Uniform{});
-    if (exponent == 1) return use(Balance{});
-    if (exponent == 2) return use(Power2{});
-    return use(General{exponent});
+    if (exponent == 0) return use(Uniform<Real>{});
+    if (exponent == 1) return use(Balance<Real>{});
+    if (exponent == 2) return use(Power2<Real>{});
+    return use(General<Real>{static_cast<Real>(exponent)});
 }
 
 template <class H>
@@ -103,13 +129,14 @@ struct Setting {
 // The factor of a term that belongs to a strategy: 1 where it is feasible.
 template <class H>
 typename H::Number feasible(const H& h, bool yes) {
-    return h(yes ? 1.0 : 0.0);
+    return h(yes ? 1 : 0);
 }
 
 // Eq. (22), (23): vertex 1 of the camera subpath. p_1 is per area, for one sample per pixel area.
 template <class H>
 State start_camera(const H& h, double n, double pdf_a) {
-    return store<H>({h(n / pdf_a), h(0)});
+    using R = typename H::Real;
+    return store<H>({h(R(n) / R(pdf_a)), h(0)});
 }
 
 // Eq. (24), (25): vertex 1 of a light subpath. r = next event's density of vertex 0 over
@@ -124,9 +151,10 @@ struct LightStart {
 };
 template <class H>
 State start_light(const H& h, const LightStart& l, const Setting& setting) {
+    using R = typename H::Real;
     const bool hit = l.hittable && setting.families.emitter_hit;
-    return store<H>(
-        {h(l.next_event_ratio / l.pdf_a), hit ? h(l.g_light / l.pdf_origin / l.pdf_a) : h(0)});
+    return store<H>({h(R(l.next_event_ratio) / R(l.pdf_a)),
+                     hit ? h(R(l.g_light) / R(l.pdf_origin) / R(l.pdf_a)) : h(0)});
 }
 
 // The step from vertex i-1 to vertex i. For a delta vertex i-1 the densities are the coefficients
@@ -141,11 +169,12 @@ struct Step {
 // Eq. (20), (21).
 template <class H>
 State advance(const H& h, const State& previous, const Step& k) {
+    using R = typename H::Real;
     const Terms<H> p = load<H>(previous);
-    const auto ratio = h(k.g_rev / k.pdf_fwd_a);
-    const auto rest = h(k.pdf_rev_w) * p.vc;
+    const auto ratio = h(R(k.g_rev) / R(k.pdf_fwd_a));
+    const auto rest = h(R(k.pdf_rev_w)) * p.vc;
     if (k.delta) return store<H>({h(0), ratio * rest});
-    return store<H>({h(1 / k.pdf_fwd_a), ratio * (feasible(h, k.connects) * p.vcm + rest)});
+    return store<H>({h(1 / R(k.pdf_fwd_a)), ratio * (feasible(h, k.connects) * p.vcm + rest)});
 }
 
 // w of one side of a connecting edge, eq. (26), (27): pdf_a is the density per area with which the
@@ -158,8 +187,9 @@ struct Side {
 };
 template <class H>
 typename H::Number side_weight(const H& h, const State& state, const Side& k) {
+    using R = typename H::Real;
     const Terms<H> v = load<H>(state);
-    return h(k.pdf_a) * (feasible(h, k.connects) * v.vcm + h(k.pdf_rev_w) * v.vc);
+    return h(R(k.pdf_a)) * (feasible(h, k.connects) * v.vcm + h(R(k.pdf_rev_w)) * v.vc);
 }
 
 template <class H>
@@ -182,9 +212,10 @@ struct EmitterHitPdfs {
 };
 template <class H>
 double emitter_hit(const H& h, const State& camera, const EmitterHitPdfs& k) {
+    using R = typename H::Real;
     const Terms<H> v = load<H>(camera);
-    const auto by_next_event = h(k.next_event) * feasible(h, k.next_event_feasible) * v.vcm;
-    return weight_of(h, by_next_event + h(k.origin) * h(k.leave) * v.vc, h(0));
+    const auto by_next_event = h(R(k.next_event)) * feasible(h, k.next_event_feasible) * v.vcm;
+    return weight_of(h, by_next_event + h(R(k.origin)) * h(R(k.leave)) * v.vc, h(0));
 }
 
 // Case 3, t = 1: next event, eq. (30) divided by r, and (31) over next event's density.
@@ -198,8 +229,9 @@ struct NextEventPdfs {
 template <class H>
 double next_event(const H& h, const State& camera, const Side& camera_side,
                   const NextEventPdfs& k) {
-    const auto w_camera = h(k.origin / k.next_event) * side_weight(h, camera, camera_side);
-    const auto w_light = feasible(h, k.hit_feasible) * h(k.hit_pdf / k.next_event);
+    using R = typename H::Real;
+    const auto w_camera = h(R(k.origin) / R(k.next_event)) * side_weight(h, camera, camera_side);
+    const auto w_light = feasible(h, k.hit_feasible) * h(R(k.hit_pdf) / R(k.next_event));
     return weight_of(h, w_camera, w_light);
 }
 

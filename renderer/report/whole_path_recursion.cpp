@@ -76,13 +76,12 @@ bool can_draw(const PathPdfs& camera, const PathPdfs& light, const Strategy& k) 
     return true;
 }
 
-}  // namespace
-
-std::vector<double> recursive_weights(const PathPdfs& camera, const PathPdfs& light,
-                                      const PathSetting& setting, double exponent) {
+template <class Real>
+std::vector<double> weights_in(const PathPdfs& camera, const PathPdfs& light,
+                               const PathSetting& setting, double exponent) {
     const int last = camera.edges();
     const mis::Setting inner{setting.families, setting.light_subpaths};
-    return mis::with_heuristic(exponent, [&](const auto& h) {
+    return mis::with_heuristic<Real>(exponent, [&](const auto& h) {
         const std::vector<mis::State> from_camera = camera_states(h, camera, inner);
         const std::vector<mis::State> from_light = light_states(h, light, inner);
         std::vector<double> weights(last + 1, 0.0);
@@ -93,6 +92,18 @@ std::vector<double> recursive_weights(const PathPdfs& camera, const PathPdfs& li
         }
         return weights;
     });
+}
+
+}  // namespace
+
+std::vector<double> recursive_weights(const PathPdfs& camera, const PathPdfs& light,
+                                      const PathSetting& setting, double exponent) {
+    return weights_in<double>(camera, light, setting, exponent);
+}
+
+std::vector<double> recursive_weights_in_float(const PathPdfs& pdfs, const PathSetting& setting,
+                                               double exponent) {
+    return weights_in<float>(pdfs, pdfs, setting, exponent);
 }
 
 }  // namespace midway
