@@ -97,7 +97,7 @@ BuiltPrimitive build_primitive(Importer& importer, int mesh, std::size_t index, 
                                         std::to_string(set) + " that its material uses");
         }
     }
-    importer.scene.meshes.push_back(std::move(built->mesh));
+    importer.scene.meshes.push_back(std::make_shared<Mesh>(std::move(built->mesh)));
     return {static_cast<int>(importer.scene.meshes.size()) - 1, built->world_origin};
 }
 

@@ -102,10 +102,19 @@ CameraDescription choose_camera(const SceneOptions& o, PreparedScene& p) {
     return c;
 }
 
-void choose_lights(const SceneOptions& o, PreparedScene& p) {
+// `old` holds the sky of the wishes before, or null.
+void choose_lights(const SceneOptions& o, const PreparedScene* old, PreparedScene& p) {
     SceneDescription& d = p.description;
-    if (o.sky) d.sky = chosen_sky(*o.sky);
-    if (!has_light(d)) {
+    d.sky.reset();  // glTF files hold none
+    if (o.sky && old && old->options.sky == o.sky) {
+        d.sky = old->description.sky;
+        d.sky->rotation_degrees = 0;
+        d.sky->strength = 1;
+    } else if (o.sky) {
+        d.sky = chosen_sky(*o.sky);
+    }
+    p.default_sky = !has_light(d);
+    if (p.default_sky) {
         d.sky = default_sky();
         p.warnings.push_back(
             "the scene has no light; a soft default sky is used (--sky changes it)");
@@ -123,22 +132,69 @@ void choose_lights(const SceneOptions& o, PreparedScene& p) {
             "use finite numbers");
 }
 
+// Whether two wishes differ in the camera alone.
+bool same_lights(const SceneOptions& a, const SceneOptions& b) {
+    return a.sky == b.sky && a.sky_rotation_degrees == b.sky_rotation_degrees &&
+           a.sky_strength == b.sky_strength && a.lamp_strength == b.lamp_strength;
+}
+
+// Freezes the description; `previous` is a Scene of the same file to share with, or null.
+void build(PreparedScene& p, const Scene* previous) {
+    BuildOptions options;
+    options.previous = previous;
+    p.scene_warnings.clear();
+    p.scene = std::make_shared<Scene>(build_scene(p.description, p.scene_warnings, options));
+    if (p.scene->geometry->triangle_count == 0)
+        p.scene_warnings.push_back("the scene holds no triangles; only the sky can be seen");
+}
+
+void finish(PreparedScene& p) {
+    p.warnings.insert(p.warnings.end(), p.scene_warnings.begin(), p.scene_warnings.end());
+    p.hash = hash_scene(p.content_hash, p.description, p.camera);
+}
+
+const Image* sky_map(const SceneDescription& d) { return d.sky ? d.sky->map.get() : nullptr; }
+
 }  // namespace
 
-PreparedScene prepare_scene(const SceneOptions& o) {
+PreparedScene prepare_scene(const SceneOptions& o, const LoadProgress& progress) {
+    const auto at = [&](const char* stage, double done) {
+        if (progress) progress(stage, done);
+    };
     PreparedScene p;
+    p.options = o;
     const auto start = Clock::now();
+    at("reading the file", 0);
     p.description = load_gltf(o.path);
     p.warnings = p.description.warnings;
-    choose_lights(o, p);
+    choose_lights(o, nullptr, p);
     p.camera = choose_camera(o, p);
     p.seconds_load = seconds_since(start);
-    const auto build = Clock::now();
-    p.scene = std::make_shared<Scene>(build_scene(p.description, p.warnings));
-    p.hash = hash_scene(p.description, p.camera);
-    if (p.scene->geometry->triangle_count == 0)
-        p.warnings.push_back("the scene holds no triangles; only the sky can be seen");
-    p.seconds_build = seconds_since(build);
+    const auto began = Clock::now();
+    at("building the tree", 0.6);
+    build(p, nullptr);
+    at("fingerprinting", 0.95);
+    p.content_hash = hash_content(p.description);
+    finish(p);
+    p.seconds_build = seconds_since(began);
+    at("ready", 1);
+    return p;
+}
+
+PreparedScene update_scene(const PreparedScene& old, const SceneOptions& o) {
+    if (o.path != old.options.path)
+        throw std::invalid_argument("the scene is another file (" + o.path + "); load it");
+    PreparedScene p = old;
+    p.options = o;
+    p.warnings = p.description.warnings;
+    choose_lights(o, &old, p);
+    p.camera = choose_camera(o, p);
+    const auto began = Clock::now();
+    if (!same_lights(o, old.options)) build(p, old.scene.get());
+    if (sky_map(p.description) != sky_map(old.description))
+        p.content_hash = hash_content(p.description);
+    finish(p);
+    p.seconds_build = seconds_since(began);
     return p;
 }
 

@@ -1,6 +1,8 @@
 // From a file and a person's wishes to a scene that is ready to trace.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,16 +27,29 @@ struct SceneOptions {
 };
 
 struct PreparedScene {
+    SceneOptions options;  // that it was made with
     SceneDescription description;
     CameraDescription camera;
     std::shared_ptr<const Scene> scene;
-    std::vector<std::string> warnings;
-    std::uint64_t hash = 0;  // of the scene and the camera
+    std::vector<std::string> warnings;        // all of them
+    std::vector<std::string> scene_warnings;  // those of building the Scene
+    bool default_sky = false;                 // the file and the wishes hold no light
+    std::uint64_t content_hash = 0;           // of the meshes and images
+    std::uint64_t hash = 0;                   // of the scene and the camera
     double seconds_load = 0, seconds_build = 0;
 };
 
-// Throws one line: std::runtime_error where the file cannot be rendered, std::invalid_argument where
-// the wishes make no sense.
-PreparedScene prepare_scene(const SceneOptions& options);
+// What a load is at, and how much of it is done; called by the thread that loads. A loader is
+// stopped by throwing out of it.
+using LoadProgress = std::function<void(const char* stage, double done)>;
+
+// Throws one line: std::runtime_error where the file cannot be rendered, std::invalid_argument
+// where the wishes make no sense.
+PreparedScene prepare_scene(const SceneOptions& options, const LoadProgress& progress = {});
+
+// The same file with other wishes: nothing is read again, and all that the change leaves alone is
+// shared (a new camera keeps the Scene, a new sky keeps geometry and tree). Throws as above, or
+// where the path differs.
+PreparedScene update_scene(const PreparedScene& old, const SceneOptions& options);
 
 }  // namespace midway

@@ -16,7 +16,7 @@ double mean(const vec3& c) { return (double(c.x) + c.y + c.z) / 3; }
 template <class Visit>
 void for_each_position(const SceneDescription& d, const Visit& visit) {
     for (const Instance& i : d.instances)
-        for (const vec3& p : d.meshes[i.mesh].positions)
+        for (const vec3& p : d.meshes[i.mesh]->positions)
             visit(dvec3(i.to_world * dvec4(dvec3(p), 1.0)));
 }
 
@@ -69,6 +69,13 @@ void copy_triangles(const Mesh& mesh, bool mirrored, Object& o, size_t& dropped)
     }
 }
 
+// What traversal has to know of an object's material.
+struct ObjectFacts {
+    bool may_be_transparent = false;
+    bool closed = false;
+    bool operator==(const ObjectFacts&) const = default;
+};
+
 bool any_alpha(const SceneDescription& d, const Material& m, const Mesh& mesh) {
     if (m.alpha_mode == AlphaMode::opaque) return false;
     const float limit = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 1.0f;
@@ -82,35 +89,50 @@ bool any_alpha(const SceneDescription& d, const Material& m, const Mesh& mesh) {
     return false;
 }
 
-std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d,
-                                               std::vector<std::string>& warnings) {
+ObjectFacts object_facts(const SceneDescription& d, const Object& o) {
+    const Instance& i = d.instances[o.instance];
+    const Material& material = d.materials[i.material];
+    ObjectFacts f;
+    f.may_be_transparent = any_alpha(d, material, *d.meshes[i.mesh]);
+    f.closed = material.transmission > 0 &&
+               (material.has_thickness || is_closed_mesh(o.positions, o.triangles));
+    return f;
+}
+
+std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool normalised) {
     auto g = std::make_shared<Geometry>();
-    g->normalisation = normalise(d);
-    size_t dropped = 0;
+    if (normalised) g->normalisation = normalise(d);
     float radius2 = 0;
-    for (const Instance& i : d.instances) {
-        const Mesh& mesh = d.meshes[i.mesh];
-        const Material& material = d.materials[i.material];
+    for (size_t k = 0; k < d.instances.size(); ++k) {
+        const Instance& i = d.instances[k];
+        const Mesh& mesh = *d.meshes[i.mesh];
         Object o;
         o.name = i.name.empty() ? mesh.name : i.name;
+        o.instance = static_cast<int>(k);
         o.material = i.material;
         o.texcoords = mesh.texcoords;
         o.colors = mesh.colors;
         transform_vertices(mesh, i.to_world, g->normalisation, o);
-        copy_triangles(mesh, glm::determinant(dmat3(i.to_world)) < 0, o, dropped);
+        copy_triangles(mesh, glm::determinant(dmat3(i.to_world)) < 0, o, g->dropped);
         if (o.triangles.empty()) continue;
-        o.may_be_transparent = any_alpha(d, material, mesh);
-        if (material.transmission > 0)
-            o.closed = material.has_thickness || is_closed_mesh(o.positions, o.triangles);
+        const ObjectFacts facts = object_facts(d, o);
+        o.may_be_transparent = facts.may_be_transparent;
+        o.closed = facts.closed;
         for (const vec3& p : o.positions) radius2 = std::max(radius2, length_squared(p));
         g->triangle_count += o.triangles.size();
         g->objects.push_back(std::move(o));
     }
     if (g->triangle_count > 0) g->radius = std::sqrt(radius2);
-    if (dropped > 0)
-        warnings.push_back(std::to_string(dropped) +
-                           " triangles have no area at this scale and are left out");
     return g;
+}
+
+// Whether the geometry and its tree would come out the same for these materials.
+bool still_fits(const Geometry& g, const SceneDescription& d) {
+    for (const Object& o : g.objects)
+        if (d.instances[o.instance].material != o.material ||
+            object_facts(d, o) != ObjectFacts{o.may_be_transparent, o.closed})
+            return false;
+    return true;
 }
 
 // Mean emission of a triangle, coverage included. A small share of the material's own emission
@@ -219,10 +241,19 @@ std::optional<Bounds> scene_bounds(const SceneDescription& d) {
     return b;
 }
 
-Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings) {
+Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
+                  const BuildOptions& options) {
     Scene s;
-    s.geometry = build_geometry(d, warnings);
-    s.accel = std::make_shared<Accel>(s.geometry);
+    if (options.previous && still_fits(*options.previous->geometry, d)) {
+        s.geometry = options.previous->geometry;
+        s.accel = options.previous->accel;
+    } else {
+        s.geometry = build_geometry(d, options.normalise);
+        s.accel = std::make_shared<Accel>(s.geometry);
+    }
+    if (s.geometry->dropped > 0)
+        warnings.push_back(std::to_string(s.geometry->dropped) +
+                           " triangles have no area at this scale and are left out");
     s.materials = d.materials;
     s.textures = d.images;
     // A margin for the rounding of positions, so that the disc covers everything.

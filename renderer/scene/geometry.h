@@ -14,6 +14,7 @@ namespace midway {
 // The triangles of one instance of a mesh. Attribute arrays are empty or as long as `positions`.
 struct Object {
     std::string name;
+    int instance = 0;  // of the description
     int material = 0;
     std::vector<vec3> positions;
     std::vector<vec3> normals;
@@ -36,6 +37,7 @@ struct Geometry {
     Normalisation normalisation;
     float radius = 1;  // of all positions about the origin, in [0.5, 1); 1 where there are none
     size_t triangle_count = 0;
+    size_t dropped = 0;  // triangles that have no area left in float
 };
 
 // Where a ray met a triangle: b1 and b2 are the barycentric weights of its vertices 1 and 2.

@@ -80,7 +80,6 @@ void add_sky(Hasher& h, const SkyDescription& s) {
     h.add(s.color);
     h.add(s.strength);
     h.add(s.rotation_degrees);
-    if (s.map) h.add(s.map->pixels);
 }
 
 void add_camera(Hasher& h, const CameraDescription& c) {
@@ -92,12 +91,20 @@ void add_camera(Hasher& h, const CameraDescription& c) {
 
 }  // namespace
 
-std::uint64_t hash_scene(const SceneDescription& d, const CameraDescription& camera) {
+std::uint64_t hash_content(const SceneDescription& d) {
     Hasher h;
-    for (const Mesh& m : d.meshes) add_mesh(h, m);
-    for (const Material& m : d.materials) add_material(h, m);
+    for (const auto& m : d.meshes) add_mesh(h, *m);
     for (const auto& image : d.images)
         if (image) h.add(image->rgba);
+    if (d.sky && d.sky->map) h.add(d.sky->map->pixels);
+    return h.value();
+}
+
+std::uint64_t hash_scene(std::uint64_t content, const SceneDescription& d,
+                         const CameraDescription& camera) {
+    Hasher h;
+    h.add(content);
+    for (const Material& m : d.materials) add_material(h, m);
     for (const Instance& i : d.instances) {
         h.add(i.mesh);
         h.add(i.material);

@@ -32,7 +32,14 @@ struct Scene {
 
 // Throws std::runtime_error with one line for a scene that cannot be traced. Lines for things that
 // were mended or left out are appended to `warnings`.
-Scene build_scene(const SceneDescription& description, std::vector<std::string>& warnings);
+struct BuildOptions {
+    // A scene built from the same meshes and instances: its geometry and tree are shared where the
+    // materials allow it.
+    const Scene* previous = nullptr;
+    bool normalise = true;  // false: traced in the file's coordinates, for tests
+};
+Scene build_scene(const SceneDescription& description, std::vector<std::string>& warnings,
+                  const BuildOptions& options = {});
 
 // Bounds of all instances in the file's coordinates; empty where there is no geometry.
 struct Bounds {
@@ -40,8 +47,11 @@ struct Bounds {
 };
 std::optional<Bounds> scene_bounds(const SceneDescription& description);
 
-// Hash of everything in a description and a camera that can change an image.
-std::uint64_t hash_scene(const SceneDescription& description, const CameraDescription& camera);
+// Hash of everything in a description and a camera that can change an image. `content` is
+// hash_content() of the description: the large part, which edits of lights and materials keep.
+std::uint64_t hash_content(const SceneDescription& description);  // meshes, images, sky map
+std::uint64_t hash_scene(std::uint64_t content, const SceneDescription& description,
+                         const CameraDescription& camera);
 
 // What a ray meets first; empty where it leaves the scene. `coin` decides about transparency.
 std::optional<SurfacePoint> intersect(const Scene& scene, const Ray& ray, std::uint64_t coin);

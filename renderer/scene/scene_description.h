@@ -73,7 +73,7 @@ struct SkyDescription {
 struct SceneDescription {
     std::string source;  // path of the file
     std::string generator;
-    std::vector<Mesh> meshes;
+    std::vector<std::shared_ptr<const Mesh>> meshes;  // none is null; shared by edited copies
     std::vector<Material> materials;  // never empty once an instance exists
     std::vector<std::shared_ptr<const TextureImage>> images;
     std::vector<Instance> instances;

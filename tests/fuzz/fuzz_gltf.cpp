@@ -14,7 +14,8 @@ namespace {
 
 // What build_scene() and the kernels rely on.
 void check(const midway::SceneDescription& scene) {
-    for (const midway::Mesh& mesh : scene.meshes) {
+    for (const auto& shared : scene.meshes) {
+        const midway::Mesh& mesh = *shared;
         const std::size_t count = mesh.positions.size();
         const auto whole = [&](std::size_t size) { return size == 0 || size == count; };
         if (mesh.triangles.empty() || !whole(mesh.normals.size()) || !whole(mesh.tangents.size()) ||

@@ -88,7 +88,7 @@ struct Builder {
     }
     void add(Mesh mesh, Material material, const dmat4& to_world) {
         d.instances.push_back({"", int(d.meshes.size()), int(d.materials.size()), to_world});
-        d.meshes.push_back(std::move(mesh));
+        d.meshes.push_back(std::make_shared<Mesh>(std::move(mesh)));
         d.materials.push_back(std::move(material));
     }
     void add_floor() {

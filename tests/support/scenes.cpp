@@ -168,7 +168,7 @@ int add(SceneDescription& scene, Mesh mesh, const Material& material, const dmat
     scene.instances.push_back({"object " + std::to_string(id),
                                static_cast<int>(scene.meshes.size()),
                                static_cast<int>(scene.materials.size()), to_world});
-    scene.meshes.push_back(std::move(mesh));
+    scene.meshes.push_back(std::make_shared<Mesh>(std::move(mesh)));
     scene.materials.push_back(material);
     return id;
 }

@@ -52,7 +52,7 @@ void add_meshopt_square(GltfFile& file) {
 TEST(GltfCompression, MeshoptComesBack) {
     GltfFile file;
     add_meshopt_square(file);
-    const Mesh mesh = file.load().meshes.at(0);
+    const Mesh mesh = *file.load().meshes.at(0);
     EXPECT_EQ(mesh.positions.at(3), vec3(1, 1, 0));
     EXPECT_EQ(mesh.triangles.size(), 2u);
 }
@@ -116,7 +116,7 @@ void add_draco_square(GltfFile& file) {
 TEST(GltfCompression, DracoComesBack) {
     GltfFile file;
     add_draco_square(file);
-    const Mesh mesh = file.load().meshes.at(0);
+    const Mesh mesh = *file.load().meshes.at(0);
     EXPECT_EQ(mesh.positions.size(), 4u);
     EXPECT_EQ(mesh.triangles.size(), 2u);
     double area = 0;

@@ -22,7 +22,8 @@ std::vector<std::string> gltf_files(const std::string& folder) {
 }
 
 void expect_consistent(const SceneDescription& scene, const std::string& file) {
-    for (const Mesh& mesh : scene.meshes) {
+    for (const auto& shared : scene.meshes) {
+        const Mesh& mesh = *shared;
         for (const uvec3& t : mesh.triangles) {
             ASSERT_LT(std::max({t.x, t.y, t.z}), mesh.positions.size()) << file;
         }
@@ -79,7 +80,7 @@ TEST(GltfCorpus, CompressedCopiesOfASceneAgree) {
             load_gltf(shared_path(std::string("scenes/suzanne-pmndrs/") + name).string());
         dvec3 low(1e30), high(-1e30);
         for (const Instance& instance : scene.instances) {
-            const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+            const Mesh& mesh = *scene.meshes[static_cast<std::size_t>(instance.mesh)];
             EXPECT_EQ(mesh.triangles.size(), 15744u);
             for (const vec3& p : mesh.positions) {
                 const dvec3 world = dvec3(instance.to_world * dvec4(dvec3(p), 1));

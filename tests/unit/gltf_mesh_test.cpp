@@ -14,7 +14,7 @@ constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 Mesh only_mesh(GltfFile& file) {
     const SceneDescription scene = file.load();
     EXPECT_EQ(scene.meshes.size(), 1u);
-    return scene.meshes.at(0);
+    return *scene.meshes.at(0);
 }
 
 TEST(GltfMesh, IndexedSquareWithoutNormalsStaysFlat) {
@@ -150,8 +150,8 @@ TEST(GltfMesh, MorphWeightsOfTheNodeOverrideTheMesh) {
     file.add("nodes", {{"mesh", 0}, {"weights", {0.25}}});
     const SceneDescription scene = file.load();
     ASSERT_EQ(scene.meshes.size(), 2u);
-    EXPECT_EQ(scene.meshes[0].positions[0].z, 2);
-    EXPECT_EQ(scene.meshes[1].positions[0].z, 1);
+    EXPECT_EQ(scene.meshes[0]->positions[0].z, 2);
+    EXPECT_EQ(scene.meshes[1]->positions[0].z, 1);
 }
 
 TEST(GltfMesh, SkinFollowsItsJointsAndNotItsNode) {
@@ -170,7 +170,7 @@ TEST(GltfMesh, SkinFollowsItsJointsAndNotItsNode) {
     const SceneDescription scene = file.load();
     const Instance& instance = scene.instances.at(0);
     const dvec3 corner =
-        dvec3(instance.to_world * dvec4(dvec3(scene.meshes.at(0).positions[3]), 1));
+        dvec3(instance.to_world * dvec4(dvec3(scene.meshes.at(0)->positions[3]), 1));
     EXPECT_EQ(corner, dvec3(3, 1, 5));
 }
 
@@ -186,7 +186,7 @@ TEST(GltfMesh, SkinWithJointsThatDoNotExistIsShownUnposed) {
          {"inverseBindMatrices", file.floats(std::vector<float>(16, 1), "MAT4")}}};
     file.root["nodes"][node]["skin"] = 0;
     const SceneDescription scene = file.load();
-    EXPECT_EQ(scene.meshes.at(0).positions[3], vec3(1, 1, 0));
+    EXPECT_EQ(scene.meshes.at(0)->positions[3], vec3(1, 1, 0));
     EXPECT_TRUE(mentions(scene.warnings, "unposed"));
 }
 
@@ -198,8 +198,8 @@ TEST(GltfMesh, UnusableTrianglesAreLeftOutAndCounted) {
                                       "VEC3");
     file.show({{"attributes", {{"POSITION", positions}}}});
     const SceneDescription scene = file.load();
-    EXPECT_EQ(scene.meshes.at(0).triangles.size(), 1u);
-    EXPECT_EQ(scene.meshes.at(0).positions.size(), 3u);
+    EXPECT_EQ(scene.meshes.at(0)->triangles.size(), 1u);
+    EXPECT_EQ(scene.meshes.at(0)->positions.size(), 3u);
     EXPECT_TRUE(mentions(scene.warnings, "1 triangles without area"));
     EXPECT_TRUE(mentions(scene.warnings, "1 triangles with infinite or undefined"));
 }
@@ -211,7 +211,7 @@ TEST(GltfMesh, NormalsAreOfUnitLengthAndZeroOnesAreReplaced) {
         file.floats({0, 0, 9, 0, 0, 0, nan_value, 0, 0, 0, 0.5f, 0}, "VEC3");
     file.show(primitive);
     const SceneDescription scene = file.load();
-    EXPECT_EQ(scene.meshes.at(0).normals,
+    EXPECT_EQ(scene.meshes.at(0)->normals,
               (std::vector<vec3>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 1, 0}}));
     EXPECT_TRUE(mentions(scene.warnings, "2 normals"));
 }
@@ -222,7 +222,7 @@ TEST(GltfMesh, AttributeOfAnotherLengthIsLeftOut) {
     primitive["attributes"]["NORMAL"] = file.floats({0, 0, 1}, "VEC3");
     file.show(primitive);
     const SceneDescription scene = file.load();
-    EXPECT_TRUE(scene.meshes.at(0).normals.empty());
+    EXPECT_TRUE(scene.meshes.at(0)->normals.empty());
     EXPECT_TRUE(mentions(scene.warnings, "NORMAL has 1 elements"));
 }
 

@@ -69,8 +69,8 @@ TEST(GltfNodes, MirroringIsPassedOnAsTheMatrixAlone) {
     file.root["nodes"][node]["scale"] = {-1, 1, 1};
     const SceneDescription mirrored = file.load();
     EXPECT_LT(glm::determinant(dmat3(mirrored.instances.at(0).to_world)), 0);
-    EXPECT_EQ(mirrored.meshes.at(0).triangles, plain.meshes.at(0).triangles);
-    EXPECT_EQ(mirrored.meshes.at(0).positions, plain.meshes.at(0).positions);
+    EXPECT_EQ(mirrored.meshes.at(0)->triangles, plain.meshes.at(0)->triangles);
+    EXPECT_EQ(mirrored.meshes.at(0)->positions, plain.meshes.at(0)->positions);
 }
 
 TEST(GltfNodes, FlatteningIsBakedIntoTheMesh) {
@@ -84,9 +84,9 @@ TEST(GltfNodes, FlatteningIsBakedIntoTheMesh) {
     ASSERT_EQ(scene.instances.size(), 1u);
     EXPECT_DOUBLE_EQ(glm::determinant(dmat3(scene.instances[0].to_world)), 1);
     const dvec3 corner =
-        dvec3(scene.instances[0].to_world * dvec4(dvec3(scene.meshes[0].positions[3]), 1));
+        dvec3(scene.instances[0].to_world * dvec4(dvec3(scene.meshes[0]->positions[3]), 1));
     EXPECT_EQ(corner, dvec3(12, 2, 0));
-    EXPECT_EQ(scene.meshes[0].normals[0], vec3(0, 0, 1));
+    EXPECT_EQ(scene.meshes[0]->normals[0], vec3(0, 0, 1));
 }
 
 TEST(GltfNodes, LoopIsAnError) {

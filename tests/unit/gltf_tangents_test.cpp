@@ -74,7 +74,8 @@ TEST(Tangents, AgreeWithThoseOfAnExporter) {
         load_gltf(shared_path("scenes/FlightHelmet/FlightHelmet.gltf").string());
     std::vector<double> angles;
     std::size_t same_side = 0;
-    for (const Mesh& exported : scene.meshes) {
+    for (const auto& shared : scene.meshes) {
+        const Mesh& exported = *shared;
         if (exported.tangents.empty()) continue;
         Mesh mesh = exported;
         generate_tangents(mesh, 0);
