@@ -6,13 +6,23 @@
 // stay pure. Throws std::runtime_error with one line "WHAT (WHERE); REMEDY".
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "image/tonemap.h"
 
 namespace midway {
 
-// Appears whole or not at all.
+// The bytes of the file.
+std::string encode_png(const Image& linear, const ToneMap& tone);
+
+// All appear whole or not at all.
 void write_png(const std::string& path, const Image& linear, const ToneMap& tone);
+// Of values that are encoded already, in [0, 1].
+void write_encoded_png(const std::string& path, const Image& encoded);
+// Bytes as they are, three a pixel, rows from the top.
+void write_png_bytes(const std::string& path, int width, int height,
+                     const std::vector<std::uint8_t>& rgb);
 
 }  // namespace midway
