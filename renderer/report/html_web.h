@@ -6,5 +6,6 @@
 namespace midway::web {
 
 extern const std::string_view page_html, page_css, page_js, charts_js, chart_js;
+extern const std::string_view images_html, images_css, images_js, viewer_js;
 
 }  // namespace midway::web
