@@ -16,7 +16,41 @@ float filmic(float x) {
     return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f);
 }
 
+// x / (1 + x^(3/2))^(2/3): slope one at 0, and one at infinity.
+float hyperbola(float x) { return x / std::pow(1 + std::pow(x, 1.5f), 2.0f / 3); }
+
+// The scale of the hyperbola that leaves the pivot with slope 2 and rises by `height` over `width`.
+float hyperbola_scale(float width, float height) {
+    return 2 * width / std::pow(std::pow(2 * width / height, 1.5f) - 1, 2.0f / 3);
+}
+
+float agx_sigmoid(float x) {
+    constexpr float pivot_x = 10 / 16.5f;
+    const float pivot_y = srgb_from_linear(0.18f);
+    if (x < pivot_x) {
+        const float s = hyperbola_scale(pivot_x, pivot_y);
+        return pivot_y - s * hyperbola(2 * (pivot_x - x) / s);
+    }
+    const float s = hyperbola_scale(1 - pivot_x, 1 - pivot_y);
+    return pivot_y + s * hyperbola(2 * (x - pivot_x) / s);
+}
+
 }  // namespace
+
+vec3 agx(const vec3& exposed) {
+    // How much red, green and blue add to X + Y + Z in white (BT.709, D65): what mixing with white
+    // in the plane of chromaticities means for linear light.
+    constexpr vec3 white{0.2120f, 0.3922f, 0.3958f};
+    vec3 c;
+    for (int i = 0; i < 3; ++i) c[i] = exposed[i] > 0 ? std::min(exposed[i], 1e6f) : 0.0f;
+    c = 0.8f * c + vec3(0.2f * glm::dot(white, c));
+    vec3 encoded;
+    for (int i = 0; i < 3; ++i) {
+        const float stops = std::log2(std::max(c[i], 1e-10f) / 0.18f);
+        encoded[i] = agx_sigmoid(std::clamp((stops + 10) / 16.5f, 0.0f, 1.0f));
+    }
+    return encoded;
+}
 
 float srgb_from_linear(float linear) {
     if (!(linear > 0)) return 0;
@@ -27,6 +61,7 @@ float srgb_from_linear(float linear) {
 
 vec3 tone_map(const vec3& linear, const ToneMap& tone) {
     const float scale = std::exp2(tone.exposure_ev);
+    if (tone.curve == Curve::agx) return agx(linear * scale);
     vec3 encoded(0);
     for (int i = 0; i < 3; ++i) {
         float exposed = linear[i] * scale;
