@@ -13,6 +13,7 @@
 #include "render/live_render.h"
 #include "render/session.h"
 #include "viewer/camera_control.h"
+#include "viewer/ui_state.h"
 
 namespace midway {
 
@@ -54,8 +55,9 @@ struct Document {
 // they follow the view when the window (not a panel) changes its size.
 struct RenderChoices {
     RenderSettings settings;
-    double exponent = 2;      // of the slider, 0..8
-    bool same_paths = false;  // exponents 0, 1, 2 and the slider's from the same paths
+    double exponent = 2;       // the one that is shown, 0..8
+    double free_exponent = 4;  // the last one chosen that is none of 0, 1, 2
+    bool same_paths = false;   // exponents 0, 1, 2 and free_exponent from the same paths
     bool fit_window = true;
     RenderLimits limits;
     int threads = 0;  // 0: all processors
@@ -106,11 +108,13 @@ struct Ui {
     bool first_visit = false;
     int tour_step = -1;               // -1: not under way
     float scale = 1;                  // of fonts and spacing: the monitor's
+    float pixels_per_point = 1;       // of the framebuffer
     Rect view;                        // where the image goes: what the panels leave free
     bool view_hovered = false;        // the mouse is over the image and not over a panel
     std::string notice;               // short line about what was just done ("saved out.exr")
     double notice_until = 0;          // in ImGui::GetTime()
     std::vector<std::string> recent;  // files, latest first
+    PanelState panel;
 };
 
 // What the shell does at the end of the frame because a panel, a key, a drop or a script asked.

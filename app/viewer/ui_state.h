@@ -1,0 +1,73 @@
+// What the panels themselves remember: tools in hand, gestures under way, fields being typed. Plain
+// data; nothing here has a say in an image.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/camera_control.h"
+
+namespace midway {
+
+struct Snapshot;  // render/live_render.h
+
+// How the window is arranged; worth keeping from one visit to the next.
+struct Arrangement {
+    bool left = true, right = true;        // the two columns
+    std::map<std::string, bool> sections;  // open or closed, by title; absent: as by default
+};
+
+// What a click or a drag of the left button in the view does.
+enum class ViewTool { orbit, focus, region };
+
+enum class Gesture { none, orbit, pan, dolly, fly, region, image_pan };
+
+// The hand on the camera (panels/navigation.cpp).
+struct Navigation {
+    ViewTool tool = ViewTool::orbit;
+    Gesture gesture = Gesture::none;
+    dvec2 mouse{0};               // at the last frame, in image pixels
+    dvec3 held{0};                // the point that a pan keeps under the mouse
+    dvec2 region_start{0};        // image pixels
+    DollyGlide wheel;             // what the wheel still has to do
+    std::optional<ViewGlide> to;  // on the way to a view
+    dvec3 velocity{0};
+    double speed = 1;  // of flight: a factor on half the scene's radius per second
+    int bookmark = -1;
+    double pivot_seen_until = 0;  // the mark of the pivot fades, in ImGui::GetTime()
+};
+
+// One line of the log.
+struct Message {
+    enum class Kind { notice, warning, error } kind = Kind::notice;
+    std::string text;
+    double time = 0;  // ImGui::GetTime()
+};
+
+// Fields of the file panel.
+struct FileFields {
+    std::string open_path, sky_path, save_name;
+    std::string save_name_for;  // the document that save_name was made for
+};
+
+// What the status line works out once for each snapshot.
+struct StatusCache {
+    const Snapshot* of = nullptr;
+    std::uint64_t job = 0, passes = 0;
+    std::optional<double> error;
+};
+
+struct PanelState {
+    Arrangement arrangement;
+    Navigation navigation;
+    FileFields files;
+    StatusCache status;
+    std::vector<Message> messages;  // the newest last
+    std::string last_notice, last_error;
+    int gallery_choice = 0;
+};
+
+}  // namespace midway
