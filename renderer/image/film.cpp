@@ -24,13 +24,11 @@ bool atomic_add(std::uint64_t* word, Int128 v) {
     return ((old ^ sum) & (high ^ sum)) >> 63 == 0;
 }
 
-template <class PixelValue>
-Image map_pixels(const Film& film, const PixelValue& value) {
-    Image image(film.width(), film.height());
-    for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x)
-            for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<float>(value(x, y, c));
-    return image;
+// The unit as a factor: exact, and dearer to apply by ldexp than by a product.
+long double unit_factor(int unit_exponent) { return std::ldexp(1.0L, unit_exponent); }
+
+double scaled(Int128 v, long double unit) {
+    return static_cast<double>(static_cast<long double>(v) * unit);
 }
 
 }  // namespace
@@ -68,15 +66,13 @@ Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts) {
     return bits >> 31 ? -fixed : fixed;
 }
 
-double from_fixed(Int128 v, int unit_exponent) {
-    return static_cast<double>(std::ldexp(static_cast<long double>(v), unit_exponent));
-}
+double from_fixed(Int128 v, int unit_exponent) { return scaled(v, unit_factor(unit_exponent)); }
 
 Film::Film(int width, int height, int unit_exponent)
     : width_(width),
       height_(height),
       unit_exponent_(unit_exponent),
-      words_(static_cast<size_t>(width) * height * 12, 0) {}
+      words_(static_cast<size_t>(width) * height * 12) {}
 
 bool Film::add(int half, int x, int y, const FixedRgb& value) {
     std::uint64_t* word = &words_[place(half, x, y)];
@@ -113,23 +109,40 @@ PassCounts pass_counts(std::uint64_t first, std::uint64_t end) {
     return {a, end - first - a};
 }
 
-Image resolve(const Film& film, const PassCounts& passes) {
+void resolve_rows(const Film& film, const PassCounts& passes, int y0, int y1, Image* mean,
+                  Image* variance) {
+    const long double unit = unit_factor(film.unit_exponent());
     const double n = static_cast<double>(passes.total());
-    return map_pixels(film, [&](int x, int y, int c) {
-        // A damaged film may hold any bits: its halves are added without overflow, modulo 2^128.
-        const auto sum = static_cast<Int128>(static_cast<UInt128>(film.sum(0, x, y)[c]) +
-                                             static_cast<UInt128>(film.sum(1, x, y)[c]));
-        return n > 0 ? from_fixed(sum, film.unit_exponent()) / n : 0.0;
-    });
+    if (passes.a == 0 || passes.b == 0) variance = nullptr;
+    for (int y = y0; y < y1; ++y)
+        for (int x = 0; x < film.width(); ++x) {
+            const FixedRgb a = film.sum(0, x, y), b = film.sum(1, x, y);
+            for (int c = 0; c < 3; ++c) {
+                if (mean) {
+                    // A damaged film may hold any bits: its halves are added modulo 2^128.
+                    const auto sum = static_cast<Int128>(static_cast<UInt128>(a[c]) +
+                                                         static_cast<UInt128>(b[c]));
+                    mean->at(x, y)[c] = n > 0 ? static_cast<float>(scaled(sum, unit) / n) : 0.0f;
+                }
+                if (variance) {
+                    const double difference = scaled(a[c], unit) / double(passes.a) -
+                                              scaled(b[c], unit) / double(passes.b);
+                    variance->at(x, y)[c] = static_cast<float>(0.25 * difference * difference);
+                }
+            }
+        }
+}
+
+Image resolve(const Film& film, const PassCounts& passes) {
+    Image mean(film.width(), film.height());
+    resolve_rows(film, passes, 0, film.height(), &mean, nullptr);
+    return mean;
 }
 
 Image resolve_variance(const Film& film, const PassCounts& passes) {
-    if (passes.a == 0 || passes.b == 0) return Image(film.width(), film.height());
-    return map_pixels(film, [&](int x, int y, int c) {
-        const double a = from_fixed(film.sum(0, x, y)[c], film.unit_exponent()) / double(passes.a);
-        const double b = from_fixed(film.sum(1, x, y)[c], film.unit_exponent()) / double(passes.b);
-        return 0.25 * (a - b) * (a - b);
-    });
+    Image variance(film.width(), film.height());
+    resolve_rows(film, passes, 0, film.height(), nullptr, &variance);
+    return variance;
 }
 
 }  // namespace midway

@@ -8,6 +8,9 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <new>
 #include <vector>
 
 #include "image/image.h"
@@ -30,6 +33,31 @@ struct FixedCounts {
 Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts);
 double from_fixed(Int128 v, int unit_exponent);
 
+// Memory that is zero when it is first touched, so that a large film is made at once: for vectors
+// that are given their size when they are made and never grow.
+template <class T>
+struct ZeroedAllocator {
+    using value_type = T;
+    ZeroedAllocator() = default;
+    template <class U>
+    ZeroedAllocator(const ZeroedAllocator<U>&) {}
+    T* allocate(size_t n) {
+        if (n > std::numeric_limits<size_t>::max() / sizeof(T)) throw std::bad_alloc();
+        void* p = std::calloc(n, sizeof(T));
+        if (!p) throw std::bad_alloc();
+        return static_cast<T*>(p);
+    }
+    void deallocate(T* p, size_t) { std::free(p); }
+    template <class U>
+    void construct(U*) {}
+    template <class U, class V>
+    void construct(U* p, const V& v) {
+        *p = v;
+    }
+    bool operator==(const ZeroedAllocator&) const { return true; }
+};
+using FilmWords = std::vector<std::uint64_t, ZeroedAllocator<std::uint64_t>>;
+
 class Film {
   public:
     Film(int width, int height, int unit_exponent);
@@ -49,15 +77,15 @@ class Film {
     void merge(const Film& other);
 
     // Raw words for a file: for every pixel, half and channel the low and the high 64 bits.
-    const std::vector<std::uint64_t>& words() const { return words_; }
-    std::vector<std::uint64_t>& words() { return words_; }
+    const FilmWords& words() const { return words_; }
+    FilmWords& words() { return words_; }
 
   private:
     size_t place(int half, int x, int y) const {
         return ((static_cast<size_t>(y) * width_ + x) * 2 + half) * 6;
     }
     int width_, height_, unit_exponent_;
-    std::vector<std::uint64_t> words_;
+    FilmWords words_;
 };
 
 // How many passes each half holds: passes [0, n) put (n + 1) / 2 into A.
@@ -73,5 +101,10 @@ Image resolve(const Film& film, const PassCounts& passes);
 // Estimated variance of resolve()'s pixels: a quarter of the squared difference of the halves'
 // means.
 Image resolve_variance(const Film& film, const PassCounts& passes);
+
+// Rows y0 to y1 (excluded) of either, or of both at once (the other null), into images of the
+// film's size; so that many threads may share the work. No variance where a half holds nothing.
+void resolve_rows(const Film& film, const PassCounts& passes, int y0, int y1, Image* mean,
+                  Image* variance);
 
 }  // namespace midway

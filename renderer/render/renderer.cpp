@@ -1,5 +1,9 @@
 #include "render/renderer.h"
 
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -9,19 +13,38 @@
 namespace midway {
 namespace {
 
-constexpr int tile_size = 32;
-
 struct Tiles {
     PixelRect crop;
-    int columns() const { return (crop.width() + tile_size - 1) / tile_size; }
-    int rows() const { return (crop.height() + tile_size - 1) / tile_size; }
+    int size = 32;
+    int columns() const { return (crop.width() + size - 1) / size; }
+    int rows() const { return (crop.height() + size - 1) / size; }
     std::uint64_t count() const { return std::uint64_t(columns()) * rows(); }
     PixelRect at(std::uint64_t i) const {
-        const int x = crop.x0 + static_cast<int>(i % columns()) * tile_size;
-        const int y = crop.y0 + static_cast<int>(i / columns()) * tile_size;
-        return {x, y, std::min(x + tile_size, crop.x1), std::min(y + tile_size, crop.y1)};
+        const int x = crop.x0 + static_cast<int>(i % columns()) * size;
+        const int y = crop.y0 + static_cast<int>(i / columns()) * size;
+        return {x, y, std::min(x + size, crop.x1), std::min(y + size, crop.y1)};
     }
 };
+
+// Enough tiles for the threads to end together, also in a small image.
+Tiles make_tiles(const PixelRect& crop, std::uint64_t passes, int threads) {
+    Tiles tiles{crop};
+    while (tiles.size > 4 && tiles.count() * passes < 16 * std::uint64_t(threads)) tiles.size /= 2;
+    return tiles;
+}
+
+// Others go first; what cannot be had is done without.
+void lower_priority() {
+#ifdef __linux__
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+#endif
+}
+
+double thread_cpu_seconds() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
 
 std::vector<bool> wanted_strategies(const RenderSettings& s) {
     if (s.only.empty()) return {};
@@ -55,7 +78,8 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
                                          const RendererOptions& options)
     : scene_(std::move(scene)),
       estimator_(make_estimator(*scene_, camera, settings)),
-      first_pass_(options.first_pass) {
+      first_pass_(options.first_pass),
+      background_(options.background) {
     const int processors = std::max(1u, std::thread::hardware_concurrency());
     threads_ = options.threads > 0 ? options.threads : processors;
     const int unit = film_unit_exponent(scene_->total_power);
@@ -77,10 +101,11 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
 }
 
 template <bool observed>
-void ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t items,
-                               WorkerSums& sums) {
+bool ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t count,
+                               const RenderControl* control, WorkerSums& sums) const {
     const ScopedFlushToZero flush;
-    const Tiles tiles{estimator_.crop};
+    const Tiles tiles = make_tiles(estimator_.crop, count, threads_);
+    const std::uint64_t items = count * tiles.count();
     LightSubpath scratch;
     scratch.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
     FilmRecord<observed> record(targets_, sums);
@@ -89,22 +114,26 @@ void ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t i
         const PixelRect tile = tiles.at(i % tiles.count());
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x) {
+                if (control && !control->go_on()) return false;
                 record.begin(x, y, pass);
                 estimate(estimator_, x, y, pass, scratch, record, sums.rays);
                 record.end();
             }
     }
+    return true;
 }
 
-void ProgressiveRenderer::render_passes(std::uint64_t count,
-                                        const std::function<void(double)>& tick) {
-    const std::uint64_t items = count * Tiles{estimator_.crop}.count();
+bool ProgressiveRenderer::render_passes(std::uint64_t count,
+                                        const std::function<void(double)>& tick,
+                                        const RenderControl* control) {
+    const std::uint64_t items = count * make_tiles(estimator_.crop, count, threads_).count();
     const bool observed = targets_.layers || targets_.statistics;
     std::atomic<std::uint64_t> next{0};
     std::vector<WorkerSums> sums(threads_);
     std::mutex mutex;
     std::condition_variable finished;
     int running = threads_;
+    bool whole = true;
     {
         std::vector<std::jthread> workers;
         for (WorkerSums& s : sums) {
@@ -112,22 +141,26 @@ void ProgressiveRenderer::render_passes(std::uint64_t count,
             s.strategy_rays.resize(totals_.strategy_rays.size());
             if (targets_.statistics) s.rays.by_strategy = &s.strategy_rays;
             workers.emplace_back([&] {
-                if (observed)
-                    work<true>(next, items, s);
-                else
-                    work<false>(next, items, s);
+                if (background_) lower_priority();
+                const bool done = observed ? work<true>(next, count, control, s)
+                                           : work<false>(next, count, control, s);
                 const std::lock_guard lock(mutex);
+                whole &= done;
+                cpu_seconds_ += thread_cpu_seconds();
                 --running;
                 finished.notify_one();
             });
         }
         std::unique_lock lock(mutex);
-        while (
-            !finished.wait_for(lock, std::chrono::milliseconds(100), [&] { return running == 0; }))
-            if (tick) tick(std::min(1.0, double(next) / double(items)));
+        const auto all_done = [&] { return running == 0; };
+        // Without a tick nothing wakes before the end, so that a paused render costs nothing.
+        if (!tick) finished.wait(lock, all_done);
+        while (!finished.wait_for(lock, std::chrono::milliseconds(100), all_done))
+            tick(std::min(1.0, double(next) / double(items)));
     }
     for (const WorkerSums& s : sums) merge(s);
-    passes_ += count;
+    if (whole) passes_ += count;
+    return whole;
 }
 
 void ProgressiveRenderer::adopt(std::vector<Film> films, std::uint64_t passes) {

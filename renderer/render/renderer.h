@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "render/film_record.h"
+#include "render/render_control.h"
 #include "render/settings.h"
 
 namespace midway {
@@ -16,6 +17,7 @@ struct RendererOptions {
     int layer_edges = 0;           // > 0: strategy layers for paths of up to so many edges
     bool statistics = false;       // per strategy
     std::uint64_t first_pass = 0;  // of a shard: the samples before belong to others
+    bool background = false;       // workers leave the processor to others who want it
 };
 
 struct StrategyStatistics {
@@ -39,8 +41,11 @@ class ProgressiveRenderer {
                         const RenderSettings& settings, const RendererOptions& options);
 
     // Renders the next `count` passes and returns when all are in the film. `tick` is called about
-    // ten times a second by the calling thread with the share that is done.
-    void render_passes(std::uint64_t count, const std::function<void(double)>& tick = {});
+    // ten times a second by the calling thread with the share that is done. False where `control`
+    // ended them early: the film then holds parts of passes, and only statistics() and
+    // cpu_seconds() mean something.
+    bool render_passes(std::uint64_t count, const std::function<void(double)>& tick = {},
+                       const RenderControl* control = nullptr);
 
     // Goes on from films of this very render (same scene and settings) that hold `passes` passes.
     void adopt(std::vector<Film> films, std::uint64_t passes);
@@ -53,6 +58,7 @@ class ProgressiveRenderer {
     Image image(int exponent = 0) const;
     Image variance(int exponent = 0) const;
     RenderStatistics statistics() const;
+    double cpu_seconds() const { return cpu_seconds_; }  // of all workers
 
     struct Layer {
         Strategy strategy;
@@ -63,7 +69,8 @@ class ProgressiveRenderer {
 
   private:
     template <bool observed>
-    void work(std::atomic<std::uint64_t>& next, std::uint64_t items, WorkerSums& sums);
+    bool work(std::atomic<std::uint64_t>& next, std::uint64_t items, const RenderControl* control,
+              WorkerSums& sums) const;
     void merge(const WorkerSums& sums);
 
     std::shared_ptr<const Scene> scene_;
@@ -74,6 +81,8 @@ class ProgressiveRenderer {
     std::vector<std::unique_ptr<StrategyFilms>> layers_;
     FilmTargets targets_;
     WorkerSums totals_;
+    bool background_ = false;
+    double cpu_seconds_ = 0;
 };
 
 }  // namespace midway

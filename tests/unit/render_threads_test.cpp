@@ -43,7 +43,8 @@ Outcome render_observed(const std::shared_ptr<const Scene>& scene, Technique tec
     // Several calls: the threads are started and joined again.
     for (std::uint64_t passes : {1, 1, 3}) renderer.render_passes(passes);
     Outcome outcome;
-    outcome.words = renderer.film().words();
+    const FilmWords& words = renderer.film().words();
+    outcome.words.assign(words.begin(), words.end());
     for (const ProgressiveRenderer::Layer& layer : renderer.layers()) {
         for (const Film* film : {&layer.films->weighted, &layer.films->bare}) {
             outcome.words.insert(outcome.words.end(), film->words().begin(), film->words().end());
