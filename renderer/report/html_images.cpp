@@ -10,6 +10,7 @@
 #include "image/png.h"
 #include "image/tonemap.h"
 #include "report/html_web.h"
+#include "report/reference.h"
 
 namespace midway {
 namespace {
@@ -29,12 +30,6 @@ Image averaged(const Image& image, int n) {
             small.at(x, y) = vec3(sum / double((right - x * n) * (low - y * n)));
         }
     return small;
-}
-
-double mean_luminance(const Image& image) {
-    double sum = 0;
-    for (const vec3& p : image.pixels) sum += luminance(p);
-    return sum / double(image.pixels.size());
 }
 
 // The power of two that takes the mean of the finite values to about one; 0 where there is none.
@@ -114,13 +109,15 @@ std::string thumbnail_uri(const Image& image, int width) {
     return "data:image/png;base64," + base64(encode_png(small, {auto_exposure(small)}));
 }
 
-void add_image_viewer(HtmlPage& page, const std::vector<PageImage>& images) {
+void add_image_viewer(HtmlPage& page, const std::vector<PageImage>& images, size_t right) {
     if (images.empty() || !images[0].image || images[0].image->pixels.empty()) return;
     std::vector<PageImage> shown;
     std::string note;
+    size_t shown_right = 0;
     for (const PageImage& i : images) {
         const bool fits = i.image && i.image->width == images[0].image->width &&
                           i.image->height == images[0].image->height;
+        if (fits && &i == &images[std::min(right, images.size() - 1)]) shown_right = shown.size();
         if (fits)
             shown.push_back(i);
         else
@@ -158,6 +155,7 @@ void add_image_viewer(HtmlPage& page, const std::vector<PageImage>& images) {
                                  {"mean", mean_luminance(reference)},
                                  {"range", usual_difference(shown)},
                                  {"note", note},
+                                 {"right", shown_right},
                                  {"images", list}};
     page.add_style(web::images_css);
     page.add_html(web::images_html);

@@ -23,8 +23,9 @@ struct PageImage {
 
 // The first image is the reference; those of another size, or of none, are left out, and the page
 // says so. Where all of them together have more than 8 million pixels, squares of 2x2, 3x3, ...
-// pixels are averaged, and the page says so. Does nothing where the reference is empty.
-void add_image_viewer(HtmlPage& page, const std::vector<PageImage>& images);
+// pixels are averaged, and the page says so. The second image is shown on the left, number `right`
+// on the right. Does nothing where the reference is empty.
+void add_image_viewer(HtmlPage& page, const std::vector<PageImage>& images, size_t right);
 
 // IEEE 754 binary16, rounded to nearest even; beyond the range the largest finite value, NaN stays.
 std::uint16_t half_from_float(float value);

@@ -92,7 +92,8 @@ void check_chart(const HtmlChart& chart) {
         }
     for (const auto* axes : {&chart.x, &chart.y})
         for (const ChartAxis& axis : *axes)
-            if (!std::ranges::any_of(chart.series, [&](const ChartSeries& series) {
+            if (!chart.series.empty() &&
+                !std::ranges::any_of(chart.series, [&](const ChartSeries& series) {
                     return std::ranges::any_of(series.columns, [&](const ChartColumn& column) {
                         return column.key == axis.key;
                     });
@@ -100,11 +101,18 @@ void check_chart(const HtmlChart& chart) {
                 fail("nothing to show for " + axis.key);
 }
 
-// A link within the page or to a file beside it. A colon could name a scheme (javascript:), two
-// slashes another machine.
-bool is_local_link(std::string_view link) {
-    return !link.empty() && link.find(':') == link.npos && !link.starts_with("/") &&
-           !link.starts_with("\\");
+// A file below the page's folder as a link, every special character written as %XX: nothing can
+// name a scheme (javascript:) or another machine. Empty where it is no such file.
+std::string local_link(std::string_view file) {
+    if (file.empty() || file[0] == '/') return {};
+    std::string link;
+    for (const char c : file) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                           (c >= 'a' && c <= 'z') ||
+                           std::string_view("-_./~").find(c) != std::string_view::npos;
+        link += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return link;
 }
 
 // Digits, with nothing but what figures need around them: such columns stand to the right.
@@ -119,9 +127,9 @@ std::string cell_html(const HtmlCell& cell, bool heading, bool number) {
         content += "<img alt=\"\" src=\"" + html_escape(cell.image) + "\">";
     if (cell.swatch)
         content += "<span class=\"swatch\" data-series=\"" + html_escape(cell.text) + "\"></span>";
-    content += is_local_link(cell.link)
-                   ? "<a href=\"" + html_escape(cell.link) + "\">" + html_escape(cell.text) + "</a>"
-                   : html_escape(cell.text);
+    const std::string link = local_link(cell.link);
+    content += link.empty() ? html_escape(cell.text)
+                            : "<a href=\"" + link + "\">" + html_escape(cell.text) + "</a>";
     if (!cell.detail.empty()) content += "<small>" + html_escape(cell.detail) + "</small>";
     return fmt::format("<{0} class=\"{1}{2}\"{3}>{4}</{0}>", heading ? "th" : "td",
                        cell.mark == Mark::none ? "" : class_of(cell.mark), number ? " number" : "",
@@ -233,9 +241,11 @@ void HtmlPage::add_table(const HtmlTable& table) {
         }
         return number;
     };
-    body_ += "<div class=\"table\" tabindex=\"0\"><table>";
-    if (!table.caption.empty()) body_ += "<caption>" + html_escape(table.caption) + "</caption>";
-    body_ += "<thead><tr>";
+    const std::string id = fmt::format("about-{}", ++ids_);
+    body_ += fmt::format(
+        "<p class=\"caption\" id=\"{0}\">{1}</p>\n<div class=\"table\" tabindex=\"0\">"
+        "<table aria-describedby=\"{0}\"><thead><tr>",
+        id, html_escape(table.caption));
     std::vector<bool> number;
     for (size_t i = 0; i < table.columns.size(); ++i) {
         number.push_back(i > 0 && is_number_column(i));

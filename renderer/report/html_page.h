@@ -26,7 +26,7 @@ struct HtmlCell {
     std::string text;
     Mark mark = Mark::none;
     std::string detail = {};  // smaller, under the text: an interval, a remark
-    std::string link = {};    // a file beside the page; not made a link where it names a scheme
+    std::string link = {};    // a file below the page's folder
     std::string image = {};   // data URI of a small image, shown above the text
     bool swatch = false;      // the text names a series: its colour stands before it
 };

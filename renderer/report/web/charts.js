@@ -13,6 +13,8 @@ midway.log_tick = (value, decades) => {
     return (lead === 1 ? "" : `${lead}·`) + "10" + midway.superscript(exponent);
 };
 
+Chart.defaults.font.family = "system-ui, 'Segoe UI', 'DejaVu Sans', Helvetica, sans-serif";
+
 // Every visible curve's point that is nearest to the pointer, by distance along x.
 Chart.Interaction.modes.each_curve = (chart, event) => {
     const found = [];

@@ -14,7 +14,7 @@ midway.image_viewer = (root) => {
     const reference = spec.images[0];
     const state = {
         mode: "side", view: "picture", exposure: spec.exposure, range: spec.range, wipe: .5, flipped: false,
-        shown: [Math.min(1, spec.images.length - 1), spec.images.length > 2 ? 2 : 0],
+        shown: [Math.min(1, spec.images.length - 1), spec.right],
         zoom: 1, x: spec.width / 2, y: spec.height / 2,  // zoom 1 shows the whole, x and y in its middle
     };
 
@@ -235,7 +235,7 @@ midway.image_viewer = (root) => {
         });
         find(".thumbs").append(thumb);
     });
-    readout.textContent = "Point at an image to read its values; drag to move, turn the wheel to zoom.";
+    readout.textContent = "Point at an image to read its values; drag to move, turn the wheel or pinch to zoom.";
     new ResizeObserver(() => refresh(false)).observe(find(".panels"));
     midway.themed.push(refresh);
 };
