@@ -23,7 +23,7 @@ struct Change {
     bool display = false;   // how the image is shown: exposure, curve, channel, zoom
     bool camera = false;    // what Document::options say of the camera (camera_control.h)
     bool settings = false;  // App::render
-    bool scene = false;     // the rest of Document::options, or Document::edited
+    bool scene = false;     // the rest of Document::options
 
     Change& operator|=(const Change& o) {
         display |= o.display, camera |= o.camera, settings |= o.settings, scene |= o.scene;
@@ -38,8 +38,6 @@ struct Document {
     std::string path;                               // .gltf, .glb or .midway; empty at first
     std::shared_ptr<const PreparedScene> prepared;  // null before; never changed once here
     SceneOptions options;                           // wishes beside the file: sky, lamps, camera
-    std::optional<SceneDescription> edited;         // set with Change::scene to edit the scene
-    bool has_edits = false;                         // the file alone no longer makes this image
     std::vector<std::string> files;                 // what the scene was read from, and
     std::uint64_t stamp = 0;                        // file_stamp(files) then
     std::vector<std::string> warnings;
@@ -90,6 +88,7 @@ struct DisplayChoices {
     float zoom = 0;            // screen pixels per image pixel; 0: as large as fits
     vec2 pan{0};               // where the image's centre is, from the view's centre, points
     bool pixel_values = true;  // written into the pixels where they are large enough
+    bool operator==(const DisplayChoices&) const = default;
 };
 
 struct Rect {
