@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/coverage.h"
@@ -55,7 +56,8 @@ void add_batch(const Film& f, const Blocks& blocks, double passes, std::vector<F
         all += sum;
         m.blocks[i].add(sum / (pixels[i] * passes));
     }
-    m.image.add(all / (double(f.width()) * f.height() * passes));
+    m.means.push_back(all / (double(f.width()) * f.height() * passes));
+    m.image.add(m.means.back());
     before = now;
 }
 
@@ -109,6 +111,25 @@ std::vector<Measured> measure(const AgreementScene& scene, const RenderSettings&
     return result;
 }
 
+std::vector<Measured> measure_seeds(const AgreementScene& scene, RenderSettings settings,
+                                    const SeedsEffort& effort) {
+    RendererOptions options;
+    options.threads = effort.threads;
+    std::vector<Measured> result(settings.exponents.size());
+    for (int i = 0; i < effort.most_seeds; ++i, ++settings.seed) {
+        if (i >= effort.seeds && good_enough(result, effort.relative_error)) break;
+        ProgressiveRenderer renderer(scene.scene, scene.camera, settings, options);
+        renderer.render_passes(effort.passes);
+        const Blocks blocks(renderer.film(), effort.block);
+        for (size_t k = 0; k < result.size(); ++k) {
+            result[k].blocks.resize(blocks.count());
+            std::vector<FixedRgb> nothing(blocks.count(), FixedRgb{});
+            add_batch(renderer.film(int(k)), blocks, double(effort.passes), nothing, result[k]);
+        }
+    }
+    return result;
+}
+
 std::vector<Strategy> all_but_direct_lamps(int max_bounces) {
     std::vector<Strategy> all;
     for (int edges = 2; edges <= max_bounces + 1; ++edges)
@@ -145,6 +166,15 @@ double welch_z(const RunningMean& a, const RunningMean& b) {
     const double n =
         (va + vb) * (va + vb) / (va * va / double(a.count - 1) + vb * vb / double(b.count - 1));
     return std::copysign((8 * n + 1) / (8 * n + 3) * std::sqrt(n * std::log1p(t2 / n)), difference);
+}
+
+double paired_z(const Measured& a, const Measured& b) {
+    RunningMean differences, nothing;
+    for (size_t i = 0; i < std::min(a.means.size(), b.means.size()); ++i) {
+        differences.add(a.means[i] - b.means[i]);
+        nothing.add(0);
+    }
+    return welch_z(differences, nothing);
 }
 
 Difference difference(const Measured& a, const Measured& b) {

@@ -1,6 +1,7 @@
 // Means of rendered images with measured standard errors, and the comparison of two of them: whole
-// images and blocks of pixels. Samples are independent (SamplerKind::independent), so the means of
-// batches of passes are independent too, splats and all.
+// images and blocks of pixels. The errors are the spread of independent means: of batches of passes
+// whose samples are independent (measure), or of whole renders with seeds of their own
+// (measure_seeds), each of them as well stratified as the sampler can.
 #pragma once
 
 #include <string>
@@ -12,10 +13,11 @@
 
 namespace midway::test {
 
-// Luminance of the image and of every block (row by row); one entry per batch.
+// Luminance of the image and of every block (row by row); one entry per batch or seed.
 struct Measured {
     RunningMean image;
     std::vector<RunningMean> blocks;
+    std::vector<double> means;  // of the image, in the order that `image` took them
 };
 
 struct Effort {
@@ -31,6 +33,19 @@ struct Effort {
 std::vector<Measured> measure(const AgreementScene& scene, const RenderSettings& settings,
                               const Effort& effort);
 
+struct SeedsEffort {
+    std::uint64_t passes = 1024;  // per seed: a power of two, which Sobol points like
+    int seeds = 16;               // at least
+    int most_seeds = 16;          // where the standard error asked for is not reached before
+    double relative_error = 0;    // of the image's mean
+    int block = 6;                // pixels
+    int threads = 1;
+};
+
+// Seeds are settings.seed, settings.seed + 1, ... One result per exponent.
+std::vector<Measured> measure_seeds(const AgreementScene& scene, RenderSettings settings,
+                                    const SeedsEffort& effort);
+
 // Every strategy up to the bounce limit but the lamp seen directly (camera 2, light 0), which only
 // emitter hits can show: with it left out, more subsets of families make the same image.
 std::vector<Strategy> all_but_direct_lamps(int max_bounces);
@@ -43,6 +58,10 @@ bool families_cover(const AgreementScene& scene, const Families& families);
 // Score of the difference of two means of batches as a standard normal variable: Welch's t, turned
 // into z by the formula of Wallace (1959), since the standard errors come from few batches.
 double welch_z(const RunningMean& a, const RunningMean& b);
+
+// The same for two means from the same seeds (exponents that share paths), whose errors have much
+// in common: the score of their differences, seed by seed.
+double paired_z(const Measured& a, const Measured& b);
 
 struct Difference {
     double image_z = 0;

@@ -19,8 +19,6 @@ struct AgreementScene {
     bool sees_smooth = false;
     // A caustic that only light subpaths find well: `path` and `light` are held to less.
     bool caustic = false;
-    // Naive weights and single families have a variance that can be measured.
-    bool naive = true;
     int max_bounces = 5;
 };
 

@@ -1,0 +1,63 @@
+#include "support/agreement_assets.h"
+
+namespace midway::test {
+namespace {
+
+AssetRow row(const std::string& initials, const std::vector<double>& exponents,
+             double relative_error, std::uint64_t passes) {
+    return {families_by_initials(initials), exponents, relative_error, passes};
+}
+
+}  // namespace
+
+Families families_by_initials(const std::string& initials) {
+    const auto has = [&](char c) { return initials.find(c) != std::string::npos; };
+    return {has('E'), has('N'), has('L'), has('C')};
+}
+
+std::vector<AssetPlan> asset_plans() {
+    const std::vector<double> all{0.5, 1, 2, 8}, some{1, 2}, power{2};
+    const double tenth = 0.001, third = 0.003, one = 0.01;  // of a percent, and one percent
+    return {
+        {"cornell",
+         "",
+         {row("ENLC", all, tenth, 1024), row("EN", all, tenth, 1024), row("L", power, tenth, 1024),
+          row("E", power, tenth, 8192), row("N", power, tenth, 1024), row("EL", some, tenth, 1024),
+          row("EC", some, tenth, 8192), row("NL", some, tenth, 1024), row("NC", some, tenth, 1024),
+          row("LC", some, tenth, 1024), row("ENL", some, tenth, 1024),
+          row("ENC", some, tenth, 1024), row("ELC", some, tenth, 1024),
+          row("NLC", some, tenth, 1024)}},
+        {"plates",
+         "",
+         {row("ENLC", some, tenth, 32768), row("EN", some, one, 2048), row("L", power, one, 8192),
+          row("ENL", some, one, 1024), row("ENC", some, one, 2048), row("EL", some, one, 1024),
+          row("ELC", some, one, 2048)}},
+        {"five-lights", "0.1,0.16,0.28", {row("ENLC", all, tenth, 8192)}},
+        {"idol",
+         "",
+         {row("ENLC", some, tenth, 16384), row("EN", some, one, 2048),
+          row("ENL", some, third, 2048), row("ENC", some, one, 2048)}},
+        {"ajar",
+         "",
+         {row("ENLC", some, tenth, 4096), row("EN", some, tenth, 4096),
+          row("ENL", some, third, 1024), row("ENC", some, third, 1024),
+          row("EL", some, third, 1024), row("ELC", some, third, 1024)}},
+        {"ring",
+         "",
+         {row("ENLC", some, tenth, 4096), row("EN", some, one, 1024), row("L", power, one, 1024),
+          row("ENL", some, third, 1024), row("ENC", some, one, 1024), row("EL", some, third, 2048),
+          row("ELC", some, third, 1024)}},
+        {"lanterns",
+         "",
+         {row("ENLC", some, tenth, 4096), row("EN", some, tenth, 4096),
+          row("L", power, tenth, 8192), row("ENL", some, third, 1024),
+          row("ENC", some, third, 2048), row("ELC", some, third, 2048)}},
+        {"terrace",
+         std::string(MIDWAY_SOURCE_DIR) + "/assets/terrace_sky.hdr",
+         {row("ENLC", all, tenth, 4096), row("EN", all, tenth, 4096), row("L", power, tenth, 32768),
+          row("N", power, third, 1024), row("ENL", some, third, 1024),
+          row("ENC", some, third, 1024)}},
+    };
+}
+
+}  // namespace midway::test
