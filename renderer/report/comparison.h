@@ -42,6 +42,7 @@ struct ReferenceInfo {
     // floor no curve means anything, and within ten times of it little.
     double floor_mse = unknown_number, floor_relmse = unknown_number;
     Image image;
+    std::optional<Image> variance;  // of its pixels, where it is known
 };
 
 // One seed of one technique. Points in order of time, about four in each doubling.

@@ -1,0 +1,138 @@
+#include "report/error_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "image/metrics.h"
+#include "math/student.h"
+
+namespace midway {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+dvec3 half_mean(const Film& film, int half, std::uint64_t count, int x, int y) {
+    const FixedRgb sum = film.sum(half, x, y);
+    const int unit = film.unit_exponent();
+    return dvec3(from_fixed(sum[0], unit), from_fixed(sum[1], unit), from_fixed(sum[2], unit)) /
+           double(count);
+}
+
+// Squared standard error of the mean luminance, and its degrees of freedom: the sum of the squares
+// of the blocks' differences, whose freedom follows from how unequal they are (Satterthwaite 1946).
+struct SquaredError {
+    double value = 0, freedom = 0;
+};
+
+SquaredError error_of_mean(const Film& film, const PassCounts& n) {
+    constexpr int blocks = 8;
+    std::array<double, blocks * blocks> difference{};
+    for (int y = 0; y < film.height(); ++y)
+        for (int x = 0; x < film.width(); ++x)
+            difference[y * blocks / film.height() * blocks + x * blocks / film.width()] +=
+                luminance(half_mean(film, 0, n.a, x, y) - half_mean(film, 1, n.b, x, y));
+    double squares = 0, fourths = 0;
+    for (const double d : difference) {
+        squares += d * d;
+        fourths += sqr(d * d);
+    }
+    if (squares == 0) return {};
+    const double total = double(n.total());
+    const double pixels = double(film.width()) * film.height();
+    return {squares * (double(n.a) / total) * (double(n.b) / total) / sqr(pixels),
+            std::clamp(3 * sqr(squares) / fourths, 1.0, double(blocks * blocks))};
+}
+
+// (x - r) / r in standard errors, both sides' measured.
+double bias_deviate(double bias, const Reference& r, const SquaredError& x) {
+    const double mean = r.luminance.estimate.mean;
+    const double reference = sqr(r.luminance.estimate.standard_error);
+    const double square = x.value + reference;
+    if (!(mean != 0) || !(square > 0)) return unknown;
+    double inverse = sqr(x.value) / std::max(1.0, x.freedom);
+    if (r.luminance.freedom > 0) inverse += sqr(reference) / r.luminance.freedom;
+    const double freedom = inverse > 0 ? sqr(square) / inverse : 1;
+    return normal_deviate_of_student(bias * std::abs(mean) / std::sqrt(square), freedom);
+}
+
+// Median of each channel over the pixels around.
+dvec3 local_median(const Image& image, int x, int y) {
+    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, image.width - 1);
+    const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, image.height - 1);
+    dvec3 result(0);
+    for (int c = 0; c < 3; ++c) {
+        std::array<float, 9> v{};
+        size_t n = 0;
+        for (int j = y0; j <= y1; ++j)
+            for (int i = x0; i <= x1; ++i) v[n++] = image.at(i, j)[c];
+        std::nth_element(v.begin(), v.begin() + n / 2, v.begin() + n);
+        result[c] = v[n / 2];
+    }
+    return result;
+}
+
+// The shortest text that reads back as the same bits; nothing where the number is unknown.
+std::string number_text(double v) { return std::isnan(v) ? "" : fmt::format("{}", v); }
+
+}  // namespace
+
+ErrorPoint measure_error(const Reference& r, const Film& film, const PassCounts& passes,
+                         const Elapsed& elapsed, bool flip) {
+    DiffOptions options;
+    options.flip = flip;
+    if (r.variance) options.reference_variance = &*r.variance;
+    const ImageError e = compare_images(resolve(film, passes), r.image, options);
+    ErrorPoint p{elapsed.seconds, elapsed.cpu_seconds, passes.total()};
+    p.mse = e.mse;
+    p.rmse = e.rmse;
+    p.relmse = e.relmse;
+    p.relmse_trimmed = e.relmse_trimmed;
+    p.smape = e.smape;
+    if (flip) p.flip = e.flip;
+    p.bias = bias(e);
+    p.bias_z = passes.a > 0 && passes.b > 0 ? bias_deviate(p.bias, r, error_of_mean(film, passes))
+                                            : unknown;
+    return p;
+}
+
+double estimate_relmse(const Film& film, const PassCounts& n) {
+    if (n.a == 0 || n.b == 0) return std::numeric_limits<double>::infinity();
+    const Image image = resolve(film, n);
+    const double total = double(n.total());
+    const double share = (double(n.a) / total) * (double(n.b) / total);
+    const double epsilon = 0.01 * sqr(mean_luminance(image));
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const dvec3 d = half_mean(film, 0, n.a, x, y) - half_mean(film, 1, n.b, x, y);
+            const dvec3 around = local_median(image, x, y);
+            for (int c = 0; c < 3; ++c)
+                if (d[c] != 0) sum += share * sqr(d[c]) / (sqr(around[c]) + epsilon);
+        }
+    return sum / (3 * double(image.width) * image.height);
+}
+
+std::uint64_t next_measured_pass(std::uint64_t passes) {
+    return passes + std::max<std::uint64_t>(1, std::bit_floor(passes) / 4);
+}
+
+std::string error_csv_header() {
+    return "technique,exponent,seed,seconds,cpu_seconds,spp,mse,rmse,relmse,relmse_trimmed,smape,"
+           "bias,bias_z\n";
+}
+
+std::string error_csv_row(const std::string& technique, double exponent, std::uint64_t seed,
+                          const ErrorPoint& p) {
+    std::string row = fmt::format("{},{},{}", technique, exponent, seed);
+    for (const double v : {p.seconds, p.cpu_seconds}) row += "," + number_text(v);
+    row += fmt::format(",{}", p.spp);
+    for (const double v : {p.mse, p.rmse, p.relmse, p.relmse_trimmed, p.smape, p.bias, p.bias_z})
+        row += "," + number_text(v);
+    return row + "\n";
+}
+
+}  // namespace midway

@@ -1,0 +1,39 @@
+// Errors of a film against a reference, as rows of one format: `midway render --error-log`,
+// `midway compare` and the window's plot all measure with these functions.
+#pragma once
+
+#include <string>
+
+#include "report/error_point.h"
+#include "report/reference.h"
+
+namespace midway {
+
+struct Elapsed {
+    double seconds = 0, cpu_seconds = 0;
+};
+
+// The error of the film's mean. The bias's standard error comes from the difference of the halves A
+// and B, block by block of an 8 x 8 grid, with blocks taken as independent (light subpaths of one
+// Sobol sequence are spread more evenly than that, so that it errs to the safe side), and from the
+// reference; bias_z is NaN where one half is empty. Throws std::runtime_error where sizes differ.
+ErrorPoint measure_error(const Reference& reference, const Film& film, const PassCounts& passes,
+                         const Elapsed& elapsed, bool flip = false);
+
+// relMSE of a film's mean with no reference: squared differences of the halves (image/film.h), over
+// the median of the 3 x 3 pixels around in place of the reference, so that a lone bright pixel
+// does not hide its own error. Infinite where one half is empty.
+double estimate_relmse(const Film& film, const PassCounts& passes);
+
+// The number of passes after `passes` at which errors are measured: every pass up to 8, then four
+// numbers in each doubling. Deterministic, so that a render that stops at an error always stops at
+// the same sample.
+std::uint64_t next_measured_pass(std::uint64_t passes);
+
+// Text of convergence.csv. Numbers are written such that they read back as the same bits; an
+// unknown one is empty.
+std::string error_csv_header();
+std::string error_csv_row(const std::string& technique, double exponent, std::uint64_t seed,
+                          const ErrorPoint& point);
+
+}  // namespace midway
