@@ -86,25 +86,10 @@ void check_outputs(const OutputOptions& o) {
     if (o.exposure != "auto") exposure_of(o.exposure, {});
 }
 
-Metadata image_metadata(const PreparedScene& p, const RenderSettings& settings,
-                        const ProgressiveRenderer& r) {
-    const RenderStatistics s = r.statistics();
-    Metadata m{{"midway:version", MIDWAY_VERSION},
-               {"midway:scene", p.description.source},
-               {"midway:scene_hash", hex_hash(p.hash)},
-               {"midway:settings", settings_json(settings)},
-               {"midway:seed", std::to_string(settings.seed)},
-               {"midway:spp", std::to_string(r.passes())}};
-    if (s.clamped > 0) m["midway:clamped"] = std::to_string(s.clamped) + " contributions";
-    return m;
-}
-
-std::string hex_hash(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
-
 void write_image(const std::string& path, const OutputOptions& o, const Image& image,
                  const std::vector<double>& exponents, size_t index, Metadata metadata) {
     const std::string name = numbered(path, exponents[index], exponents.size());
-    metadata["midway:exponent"] = fmt::format("{:g}", exponents[index]);
+    set_exponent(metadata, exponents[index]);
     if (ending(path) == ".exr")
         write_exr(name, {{"", image}}, metadata);
     else
@@ -113,7 +98,7 @@ void write_image(const std::string& path, const OutputOptions& o, const Image& i
 
 void write_outputs(const OutputOptions& o, const PreparedScene& p, const RenderSettings& settings,
                    const ProgressiveRenderer& r, const RunFigures& figures) {
-    const Metadata metadata = image_metadata(p, settings, r);
+    const Metadata metadata = image_metadata(p, settings, r.passes(), r.statistics().clamped);
     for (const std::string& path : o.images) {
         if (ending(path) == ".film") {
             write_film(path, film_header(p, settings, r), r);

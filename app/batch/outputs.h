@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/prepare.h"
+#include "render/image_metadata.h"
 #include "render/renderer.h"
 
 namespace midway {
@@ -29,8 +29,6 @@ void check_outputs(const OutputOptions& options);
 void write_image(const std::string& path, const OutputOptions& options, const Image& image,
                  const std::vector<double>& exponents, size_t index, Metadata metadata);
 
-std::string hex_hash(std::uint64_t hash);
-
 void write_outputs(const OutputOptions& options, const PreparedScene& prepared,
                    const RenderSettings& settings, const ProgressiveRenderer& renderer,
                    const RunFigures& figures);
@@ -38,9 +36,5 @@ void write_outputs(const OutputOptions& options, const PreparedScene& prepared,
 void write_stats(const std::string& path, const PreparedScene& prepared,
                  const RenderSettings& settings, const ProgressiveRenderer& renderer,
                  const RunFigures& figures);
-
-// Settings, seed, samples, scene hash and version: the header of every image.
-Metadata image_metadata(const PreparedScene& prepared, const RenderSettings& settings,
-                        const ProgressiveRenderer& renderer);
 
 }  // namespace midway
