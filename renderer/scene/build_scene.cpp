@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "math/hash.h"
+#include "scene/duplicates.h"
 #include "scene/scene.h"
 
 namespace midway {
@@ -118,9 +119,13 @@ std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool n
         const ObjectFacts facts = object_facts(d, o);
         o.may_be_transparent = facts.may_be_transparent;
         o.closed = facts.closed;
+        g->objects.push_back(std::move(o));
+    }
+    g->duplicates = remove_duplicate_triangles(g->objects);
+    std::erase_if(g->objects, [](const Object& o) { return o.triangles.empty(); });
+    for (const Object& o : g->objects) {
         for (const vec3& p : o.positions) radius2 = std::max(radius2, length_squared(p));
         g->triangle_count += o.triangles.size();
-        g->objects.push_back(std::move(o));
     }
     if (g->triangle_count > 0) g->radius = std::sqrt(radius2);
     return g;
@@ -254,6 +259,9 @@ Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
     if (s.geometry->dropped > 0)
         warnings.push_back(std::to_string(s.geometry->dropped) +
                            " triangles have no area at this scale and are left out");
+    if (s.geometry->duplicates > 0)
+        warnings.push_back(std::to_string(s.geometry->duplicates) +
+                           " triangles are there a second time and are left out");
     s.materials = d.materials;
     s.textures = d.images;
     // A margin for the rounding of positions, so that the disc covers everything.

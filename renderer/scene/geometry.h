@@ -37,7 +37,8 @@ struct Geometry {
     Normalisation normalisation;
     float radius = 1;  // of all positions about the origin, in [0.5, 1); 1 where there are none
     size_t triangle_count = 0;
-    size_t dropped = 0;  // triangles that have no area left in float
+    size_t dropped = 0;     // triangles that have no area left in float
+    size_t duplicates = 0;  // triangles left out because they are there already
 };
 
 // Where a ray met a triangle: b1 and b2 are the barycentric weights of its vertices 1 and 2.
