@@ -44,6 +44,7 @@ HtmlCell result_cell(const Comparison& c, const std::string& label) {
 // How a technique fares against the first, scene by scene.
 struct Score {
     std::vector<std::string> better, worse, even;
+    double logarithms = 0;  // sum of those of the ratios
 };
 
 Score score_of(const SuiteReport& suite, const std::string& label) {
@@ -53,6 +54,7 @@ Score score_of(const SuiteReport& suite, const std::string& label) {
         if (!t || t == &c.techniques[0] || !t->efficiency || !std::isfinite(t->efficiency->value))
             continue;
         const std::string entry = c.name + " (" + format_number(t->efficiency->value) + ")";
+        score.logarithms += std::log(std::max(t->efficiency->value, 1e-300));
         (t->efficiency->lower > 1   ? score.better
          : t->efficiency->upper < 1 ? score.worse
                                     : score.even)
@@ -65,6 +67,10 @@ std::string joined(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& w : words) text += (text.empty() ? "" : ", ") + w;
     return text.empty() ? "-" : text;
+}
+
+std::string after_colon(const std::vector<std::string>& words) {
+    return words.empty() ? "" : ": " + joined(words);
 }
 
 void add_scores(HtmlPage& page, const SuiteReport& suite, const std::vector<std::string>& labels) {
@@ -106,15 +112,23 @@ void add_scenes(HtmlPage& page, const SuiteReport& suite, const std::vector<std:
 
 Verdict suite_verdict(const SuiteReport& suite, const std::vector<std::string>& labels) {
     Verdict verdict;
-    verdict.text = fmt::format("{} of {} scenes.", suite.scenes.size(), suite.scenes_planned);
+    verdict.text = fmt::format("{} of {} scenes. ", suite.scenes.size(), suite.scenes_planned);
+    std::string best;
+    Score score;
     for (size_t i = 1; i < labels.size(); ++i) {
         const Score s = score_of(suite, labels[i]);
-        verdict.text +=
-            fmt::format("{}{} {} better on {}, worse on {}, not told apart on {}",
-                        i == 1 ? " Against " + labels[0] + ": " : "; ", labels[i],
-                        i == 1 ? "is" : "", s.better.size(), s.worse.size(), s.even.size());
+        if (best.empty() || s.logarithms > score.logarithms) {
+            best = labels[i];
+            score = s;
+        }
     }
-    if (labels.size() > 1) verdict.text += ".";
+    // By the geometric mean of the ratios.
+    if (!best.empty())
+        verdict.text += fmt::format(
+            "{} does best on the whole. Against {} it is better on {}, worse on {}{}, not told "
+            "apart on {}{}.",
+            best, labels[0], score.better.size(), score.worse.size(), after_colon(score.worse),
+            score.even.size(), after_colon(score.even));
     for (const Comparison& c : suite.scenes)
         if (verdict_of(c).mark == Mark::bad) {
             verdict.text += " " + c.name + " shows bias.";

@@ -33,6 +33,7 @@ class Browser:
         # The protocol is spoken on descriptors 3 and 4; the shell moves ours there.
         command = [installed(), "--headless=new", "--no-sandbox", "--disable-gpu", "--no-first-run",
                    "--hide-scrollbars", "--remote-debugging-pipe", "--disable-dev-shm-usage",
+                   "--disable-frame-rate-limit", "--disable-gpu-vsync",
                    f"--user-data-dir={self.folder}/profile", f"--window-size={width},{height}",
                    "about:blank"]
         self.process = subprocess.Popen(
@@ -48,11 +49,15 @@ class Browser:
                                  flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
+        self.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.downloads))
+        self.look(width, height, dark, touch)
+
+    def look(self, width, height, dark=False, touch=False):
+        """The size of the window, and what the person prefers."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=touch)
         self.call("Emulation.setEmulatedMedia", features=[
             {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
-        self.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(self.downloads))
 
     def __enter__(self):
         return self
@@ -111,7 +116,10 @@ class Browser:
         return message
 
     def open(self, path):
-        """Opens a file and waits until it is drawn."""
+        """Opens a file, waits until it is drawn, and forgets what was said before."""
+        self.call("Page.navigate", url="about:blank")
+        self.messages.clear()
+        self.requests.clear()
         self.call("Page.navigate", url=Path(path).resolve().as_uri())
         self.until("document.readyState === 'complete'")
         self.settle()

@@ -207,7 +207,8 @@ midway.draw_chart = (figure) => {
     // Left and right go along the first visible curve; Escape hides the values.
     canvas.addEventListener("keydown", (event) => {
         const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-        const first = chart.getVisibleDatasetMetas().find((m) => m.data.length && !chart.data.datasets[m.index].band);
+        const index = chart.data.datasets.findIndex((d) => !d.band && !d.hidden && d.data.length > 0);
+        const first = index < 0 ? null : chart.getDatasetMeta(index);
         if (event.key === "Escape") chart.tooltip.setActiveElements([], { x: 0, y: 0 });
         else if (step && first) {
             event.preventDefault();

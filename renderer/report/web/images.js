@@ -41,9 +41,11 @@ midway.signed_colours = [[5, 48, 97], [67, 147, 195], [247, 247, 247], [214, 96,
 midway.error_colours = [[0, 0, 4], [59, 15, 112], [140, 41, 129], [222, 73, 104], [254, 159, 109], [252, 253, 191]];
 midway.error_decades = [-4, 1];  // what the colours of relative errors span
 
+// An odd number of steps, so that the middle is one of them.
+midway.ramp_steps = 255;
 midway.ramp_table = (colours) => {
-    const table = new Uint8ClampedArray(256 * 4);
-    for (let i = 0; i < 256; ++i) table.set([...midway.ramp(colours, i / 255), 255], 4 * i);
+    const steps = midway.ramp_steps, table = new Uint8ClampedArray(steps * 4);
+    for (let i = 0; i < steps; ++i) table.set([...midway.ramp(colours, i / (steps - 1)), 255], 4 * i);
     return table;
 };
 
@@ -67,7 +69,7 @@ midway.paint_image = (bytes, values, spec, reference, look) => {
             const t = look.view === "difference"
                 ? .5 + .5 * (midway.luminance(values, i) - midway.luminance(reference, i)) / look.range
                 : (Math.log10(midway.relative_error(values, reference, i, floor)) - first) / (last - first);
-            const at = 4 * Math.round(255 * Math.min(Math.max(t, 0), 1));
+            const at = 4 * Math.round((midway.ramp_steps - 1) * Math.min(Math.max(t, 0), 1));
             for (let c = 0; c < 3; ++c) bytes[o + c] = colour[at + c];
         }
     }

@@ -115,7 +115,7 @@ midway.image_viewer = (root) => {
         find(".explain").textContent = [texts[2], spec.note].filter((t) => t).join(" ");
         find(".scale").style.visibility = state.view === "picture" ? "hidden" : "visible";
         const colours = midway.ramp_table(state.view === "difference" ? midway.signed_colours : midway.error_colours);
-        find(".scale canvas").getContext("2d").putImageData(new ImageData(colours, 256, 1), 0, 0);
+        find(".scale canvas").getContext("2d").putImageData(new ImageData(colours, midway.ramp_steps, 1), 0, 0);
     };
 
     const draw = () => {
