@@ -2,6 +2,7 @@
 // data; nothing here has a say in an image.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "viewer/camera_control.h"
+#include "viewer/gallery.h"
 
 namespace midway {
 
@@ -17,6 +19,7 @@ struct Snapshot;  // render/live_render.h
 // How the window is arranged; worth keeping from one visit to the next.
 struct Arrangement {
     bool left = true, right = true;        // the two columns
+    bool right_fits = true;                // else its sections stand in the left one
     std::map<std::string, bool> sections;  // open or closed, by title; absent: as by default
 };
 
@@ -37,12 +40,13 @@ struct Navigation {
     dvec3 velocity{0};
     double speed = 1;  // of flight: a factor on half the scene's radius per second
     int bookmark = -1;
-    double pivot_seen_until = 0;  // the mark of the pivot fades, in ImGui::GetTime()
+    const void* pivot_of = nullptr;  // the geometry that the pivot was chosen in
+    double pivot_seen_until = 0;     // the mark of the pivot fades, in ImGui::GetTime()
 };
 
 // One line of the log.
 struct Message {
-    enum class Kind { notice, warning, error } kind = Kind::notice;
+    enum class Kind { notice, error } kind = Kind::notice;
     std::string text;
     double time = 0;  // ImGui::GetTime()
 };
@@ -50,6 +54,7 @@ struct Message {
 // Fields of the file panel.
 struct FileFields {
     std::string open_path, sky_path, save_name;
+    bool focus_open = false;    // Ctrl+O: the field takes the keyboard
     std::string save_name_for;  // the document that save_name was made for
 };
 
@@ -57,6 +62,7 @@ struct FileFields {
 struct StatusCache {
     const Snapshot* of = nullptr;
     std::uint64_t job = 0, passes = 0;
+    double exponent = 0;
     std::optional<double> error;
 };
 
@@ -65,9 +71,13 @@ struct PanelState {
     Navigation navigation;
     FileFields files;
     StatusCache status;
-    std::vector<Message> messages;  // the newest last
-    std::string last_notice, last_error;
-    int gallery_choice = 0;
+    std::vector<Message> messages;                           // the newest last
+    std::string last_notice, last_error, last_render_error;  // already in `messages`
+    double last_notice_until = 0;
+    std::optional<std::vector<GalleryEntry>> gallery;  // absent before it was opened
+    // Left, top, right and bottom of the sections as drawn last, by title.
+    std::map<std::string, std::array<float, 4>> section_places;
+    std::string open_section;  // being drawn
 };
 
 }  // namespace midway

@@ -1,0 +1,32 @@
+#include "viewer/panels/panels.h"
+
+#include <array>
+
+#include "viewer/panels/parts.h"
+
+namespace midway {
+namespace {
+
+constexpr std::array<Panel, 15> table = {{
+    {"layout", draw_layout},
+    {"navigation", draw_navigation},
+    {"technique", draw_technique},
+    {"run", draw_run},
+    {"camera", draw_camera},
+    {"sampling", draw_sampling},
+    {"display", draw_display},
+    {"scene", draw_scene},
+    {"files", draw_files},
+    {"messages", draw_messages},
+    {"status", draw_status},
+    {"overlays", draw_overlays},
+    {"gallery", draw_gallery},
+    {"keys", draw_keys},
+    {"tour", draw_tour},
+}};
+
+}  // namespace
+
+std::span<const Panel> panels() { return table; }
+
+}  // namespace midway

@@ -1,0 +1,147 @@
+// The line below: how far the image is, how fast, how wrong.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/panels/parts.h"
+#include "viewer/theme.h"
+#include "viewer/widgets.h"
+
+namespace midway {
+namespace {
+
+std::string short_number(double n) {
+    if (n < 1000) return fmt::format("{:.0f}", n);
+    if (n < 1e6) return fmt::format("{:.1f} k", n / 1e3);
+    if (n < 1e9) return fmt::format("{:.2f} M", n / 1e6);
+    return fmt::format("{:.2f} G", n / 1e9);
+}
+
+std::string duration(double seconds) {
+    if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+    const auto whole = static_cast<long long>(seconds);
+    if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+    return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
+}
+
+// Estimated relative error of the image: the root of what relMSE (DESIGN, section 4) is expected to
+// be against the truth, from the variance that the two halves of the samples show. At most some
+// 2^16 pixels, evenly spread, are looked at.
+std::optional<double> estimated_error(const Image& image, const Image& variance) {
+    const size_t n = image.pixels.size();
+    if (n == 0 || variance.pixels.size() != n) return {};
+    const size_t step = std::max<size_t>(1, n >> 16);
+    double mean = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < n; i += step, ++count) mean += luminance(dvec3(image.pixels[i]));
+    mean /= static_cast<double>(count);
+    double sum = 0;
+    for (size_t i = 0; i < n; i += step)
+        for (int k = 0; k < 3; ++k)
+            sum += variance.pixels[i][k] / (sqr(double(image.pixels[i][k])) + 0.01 * sqr(mean));
+    const double error = std::sqrt(sum / (3 * static_cast<double>(count)));
+    if (!std::isfinite(error)) return {};
+    return error;
+}
+
+std::optional<double> error_of(App& app) {
+    const Snapshot& s = *app.snapshot;
+    StatusCache& cache = app.ui.panel.status;
+    if (cache.of == &s && cache.job == s.job && cache.passes == s.passes &&
+        cache.exponent == app.render.exponent)
+        return cache.error;
+    cache = {&s, s.job, s.passes, app.render.exponent, {}};
+    const auto at = std::find(s.exponents.begin(), s.exponents.end(), app.render.exponent);
+    const auto i = static_cast<size_t>(at == s.exponents.end() ? 0 : at - s.exponents.begin());
+    if (i < s.images.size() && i < s.variances.size() && s.images[i] && s.variances[i])
+        cache.error = estimated_error(*s.images[i], *s.variances[i]);
+    return cache.error;
+}
+
+// A cell of fixed width, so that numbers do not push each other about.
+void cell(const theme::Color& color, const std::string& text, const char* tooltip, float width) {
+    const float x = ImGui::GetCursorPosX();
+    ImGui::TextColored(color, "%s", text.c_str());
+    ui::tip(tooltip);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(
+        x + std::max(ui::em(width), ImGui::CalcTextSize(text.c_str()).x + ui::em(0.8f)));
+}
+
+const char* state_in_words(const App& app, const Snapshot& s) {
+    if (s.finished) return "done";
+    if (app.render.paused || s.paused) return "paused";
+    return "rendering";
+}
+
+void draw_cells(App& app) {
+    const Snapshot& s = *app.snapshot;
+    const RenderSettings& settings = app.render.settings;
+    const theme::Color& technique_color =
+        settings.technique == Technique::light ? theme::light : theme::camera;
+    const std::string name = settings.technique == Technique::bdpt   ? "BDPT"
+                             : settings.technique == Technique::path ? "Path"
+                                                                     : "Light";
+    cell(technique_color, fmt::format("{}, b = {:.3g}", name, app.render.exponent),
+         "Technique and exponent of the MIS weights", 7);
+    cell(theme::text, state_in_words(app, s), "Space pauses, R begins again", 5.2f);
+    if (s.scale > 1) {
+        cell(theme::light, fmt::format("1/{} resolution", s.scale),
+             "While things change, fewer and larger pixels keep the image quick", 8);
+    } else {
+        cell(theme::text, short_number(static_cast<double>(s.passes)) + " spp",
+             "Samples that every pixel has had", 5);
+    }
+    cell(theme::text, duration(s.seconds), "Time spent rendering this image", 4.6f);
+    const std::optional<double> error = s.scale == 1 ? error_of(app) : std::nullopt;
+    cell(
+        theme::text, error ? fmt::format("error ~{:.2g} %", 100 * *error) : "error -",
+        "Estimated relative error: the root of the relMSE that is expected against the truth, from "
+        "the difference of the two independent halves of the samples",
+        7);
+    cell(theme::text_dim, short_number(s.samples_per_second) + " samples/s",
+         "Pixel samples a second, all threads together", 8.2f);
+    cell(theme::text_dim, short_number(s.rays_per_second) + " rays/s",
+         "Rays a second, all threads together, shadow rays included", 7.4f);
+    cell(theme::text_dim, fmt::format("{} x {}", s.width, s.height), "Pixels of the image", 6);
+    if (s.statistics.nonfinite.count > 0)
+        cell(theme::error, fmt::format("{} not finite", s.statistics.nonfinite.count),
+             "Samples whose value was not a number; they are counted and left out", 6);
+}
+
+}  // namespace
+
+Change draw_status(App& app) {
+    if (!app.ui.panels) return {};
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    const float top = app.ui.view.upper.y;
+    ImGui::SetNextWindowPos({0, top});
+    ImGui::SetNextWindowSize({size.x, size.y - top});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui::em(0.7f), ui::em(0.15f)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::rgb(0x1c1c1c));
+    ImGui::Begin("##status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+    ImGui::AlignTextToFramePadding();
+    if (app.snapshot && app.snapshot->error.empty()) {
+        draw_cells(app);
+    } else {
+        ImGui::TextColored(theme::text_dim, "%s",
+                           app.document.loading.empty() ? "nothing is rendered" : "loading");
+        ImGui::SameLine();
+    }
+    const char* keys = "F1 keys";
+    const float width = ImGui::CalcTextSize(keys).x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::SameLine(size.x - width - ui::em(0.7f));
+    if (ui::wide_button(keys, "Shows all keys and what the mouse does", width))
+        app.ui.keys = !app.ui.keys;
+    ImGui::End();
+    return {};
+}
+
+}  // namespace midway

@@ -1,0 +1,117 @@
+// A short tour for the first visit; every step can be left.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "viewer/panels/parts.h"
+#include "viewer/theme.h"
+#include "viewer/widgets.h"
+
+namespace midway {
+namespace {
+
+using ui::em;
+
+struct Step {
+    const char* section;  // what is pointed at; empty: the image
+    const char* title;
+    const char* text;
+};
+
+constexpr std::array<Step, 5> steps = {{
+    {"", "This is Midway",
+     "A head of solid glass, lit by one small lamp. The image refines while you look at it. Drag "
+     "to "
+     "walk around the head, turn the wheel to come closer, double-click to set what you turn "
+     "about."},
+    {"Technique", "Three ways to find light",
+     "Press 1: path tracing finds the bright caustic in front of the head only by luck. Press 2: "
+     "light tracing draws it at once but leaves the glass black. Press 3: bidirectional path "
+     "tracing "
+     "joins walks from both ends."},
+    {"Technique", "What the weights do",
+     "Each path can be found in many ways; the exponent decides how they are weighted. Go from "
+     "power "
+     "2 to naive 0 and see the noise come. Tick \"Same paths\" and switching is instant: the "
+     "weights "
+     "alone change."},
+    {"Display", "Look closer",
+     "Exposure, tone curves, false colour and the estimated error of every pixel never restart the "
+     "render. Ctrl and the wheel zoom into the pixels until their values can be read."},
+    {"Files", "Bring your own scene",
+     "Drop a .gltf or .glb file on the window, or an .hdr as its sky. The gallery holds seven more "
+     "scenes. F1 shows all keys, Tab hides the panels."},
+}};
+
+// A frame around what the step speaks of; where that is, if it is in sight.
+std::optional<Rect> point_at(const App& app, const Step& step) {
+    const auto place = app.ui.panel.section_places.find(step.section);
+    if (place == app.ui.panel.section_places.end() || !app.ui.panels) return {};
+    const auto& [x0, y0, x1, y1] = place->second;
+    ImGui::GetForegroundDrawList()->AddRect({x0, y0}, {x1, y1}, theme::color(theme::light),
+                                            em(0.3f), 0, em(0.14f));
+    return Rect{{x0, y0}, {x1, y1}};
+}
+
+void place_beside(const App& app, const std::optional<Rect>& target) {
+    const vec2 middle = 0.5f * (app.ui.view.lower + app.ui.view.upper);
+    if (!target) {
+        ImGui::SetNextWindowPos({middle.x, app.ui.view.upper.y - em(3)}, ImGuiCond_Always,
+                                {0.5f, 1});
+        return;
+    }
+    const bool left = target->lower.x < middle.x;
+    ImGui::SetNextWindowPos({left ? target->upper.x + em(1) : target->lower.x - em(1),
+                             std::min(target->lower.y + em(1), app.ui.view.upper.y - em(16))},
+                            ImGuiCond_Always, {left ? 0.0f : 1.0f, 0});
+}
+
+}  // namespace
+
+Change draw_tour(App& app) {
+    if (app.ui.first_visit && app.document.prepared) {
+        app.ui.first_visit = false;
+        app.ui.tour_step = 0;
+    }
+    int& step = app.ui.tour_step;
+    if (step < 0 || app.ui.keys || app.ui.gallery) return {};
+    const int count = static_cast<int>(steps.size());
+    if (step >= count) {
+        step = -1;
+        return {};
+    }
+    const Step& now = steps[static_cast<size_t>(step)];
+    place_beside(app, point_at(app, now));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(1), em(0.8f)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em(0.4f));
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::rgb(0x171717, 0.96f));
+    ImGui::Begin("##tour", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushFont(theme::heading_font());
+    ImGui::TextUnformatted(now.title);
+    ImGui::PopFont();
+    ImGui::PushTextWrapPos(em(23));
+    ImGui::TextUnformatted(now.text);
+    ImGui::PopTextWrapPos();
+    ImGui::Dummy({em(22), em(0.2f)});
+    const bool last = step == count - 1;
+    const int shown = step + 1;
+    if (ImGui::Button(last ? "Done" : "Next")) ++step;
+    if (shown > 1) {
+        ImGui::SameLine();
+        if (ImGui::Button("Back")) step = shown - 2;
+    }
+    if (!last) {
+        ImGui::SameLine();
+        if (ImGui::Button("Skip the tour")) step = -1;
+    }
+    ImGui::SameLine();
+    ImGui::TextColored(theme::text_dim, "%d of %d", shown, count);
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar(2);
+    return {};
+}
+
+}  // namespace midway
