@@ -24,6 +24,10 @@ Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_diff_command(CLI::App& app);
 Command add_merge_command(CLI::App& app);
+Command add_check_command(CLI::App& app);
+
+// `typed` is the whole command line, for reports that say how to make them again.
+Command add_compare_command(CLI::App& app, const std::string& typed);
 
 // Options that choose and change the scene, shared by several commands.
 void add_scene_options(CLI::App& command, SceneOptions& options);

@@ -25,6 +25,25 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
     return midway::exit_usage;
 }
 
+// The command line as a shell would read it again.
+std::string typed_command(int argc, char** argv) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%";
+    std::string text = "midway";
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        text += ' ';
+        if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+            text += word;
+            continue;
+        }
+        text += '\'';
+        for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        text += '\'';
+    }
+    return text;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,7 +54,9 @@ int main(int argc, char** argv) {
         {"render", midway::add_render_command(app)},
         {"info", midway::add_info_command(app)},
         {"diff", midway::add_diff_command(app)},
-        {"merge", midway::add_merge_command(app)}};
+        {"compare", midway::add_compare_command(app, typed_command(argc, argv))},
+        {"merge", midway::add_merge_command(app)},
+        {"check", midway::add_check_command(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

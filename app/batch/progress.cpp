@@ -32,8 +32,10 @@ void Progress::update(const ProgressState& s) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const std::string left =
         s.done > 0 ? clock_text(elapsed * (1 - s.done) / s.done) : std::string("?");
-    const std::string text = fmt::format("{:.0f} samples  {:.2f} Mrays/s  {} left", s.samples,
-                                         static_cast<double>(s.rays) / elapsed * 1e-6, left);
+    const std::string text = s.doing.empty()
+                                 ? fmt::format("{:.0f} samples  {:.2f} Mrays/s  {} left", s.samples,
+                                               static_cast<double>(s.rays) / elapsed * 1e-6, left)
+                                 : fmt::format("{}  {} left", s.doing, left);
     if (!terminal_) {
         fmt::print(stderr, "midway: {:3.0f} %  {}\n", 100 * s.done, text);
         return;

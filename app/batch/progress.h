@@ -11,6 +11,7 @@ struct ProgressState {
     double done = 0;     // 0..1
     double samples = 0;  // per pixel
     std::uint64_t rays = 0;
+    std::string doing = {};  // shown in place of samples and rays
 };
 
 class Progress {

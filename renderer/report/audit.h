@@ -41,19 +41,15 @@ struct AuditOptions {
 // Weights of one exponent.
 struct WeightAudit {
     double exponent = 0;
-    Deviation recursive;   // |recursive - direct| given the same pdfs, worst over the strategies
-    Deviation same_sum;    // |sum - 1| given the same pdfs
-    Deviation estimator;   // |estimator's own weight - direct|: the rounding of float geometry
-    Deviation own_sum;     // |sum - 1| from own pdfs, lobes of width >= narrow_lobe and smooth ones
-    Deviation own_narrow;  // the same for paths over a narrower lobe that is not smooth
+    Deviation recursive;  // |recursive - direct| given the same pdfs, worst over the strategies
+    Deviation same_sum;   // |sum - 1| given the same pdfs
+    Deviation estimator;  // |estimator's own weight - direct|: the rounding of float geometry
+    Deviation own_sum;    // |sum - 1| when every strategy evaluates pdfs from its own side
     // Sum of contribution * (sum - 1) over the sum of contributions: relative error of the image's
     // mean that own pdfs imply.
-    double bias = 0, bias_narrow = 0;
+    double bias = 0;
     Range partial_sums;  // vcm and vc of all vertices, decades
 };
-
-// Roughness below which own pdfs are held to less.
-inline constexpr float narrow_lobe_roughness = 1e-3f;
 
 struct SampleAudit {
     std::uint64_t samples = 0;  // of pixels
@@ -91,6 +87,10 @@ struct AuditResult {
     std::vector<AuditCheck> checks;
     bool passed() const;
 };
+
+// Decades between the largest (or smallest) partial sum and the end of double's range; infinite for
+// exponents whose sums are kept as logarithms.
+double decades_to_overflow(const WeightAudit& weights);
 
 // Throws std::invalid_argument where the settings make no sense.
 AuditResult audit(const Scene& scene, const CameraDescription& camera,

@@ -10,6 +10,7 @@
 // from a mesh that cuts through itself, and how far from an edge it passed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,9 @@ struct RayAudit {
 };
 
 struct RayAuditOptions {
-    std::int64_t rays = 1000000;
-    int threads = 0;
+    std::int64_t rays = 1000000;  // at least; whole passes are drawn
+    int threads = 0;              // 0: all processors
+    std::function<void(double)> tick;
 };
 RayAudit audit_rays(const Estimator& estimator, const RayAuditOptions& options);
 

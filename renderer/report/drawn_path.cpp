@@ -115,7 +115,7 @@ bool scatter_on_record(RecordedWalk& w) {
     return true;
 }
 
-using Visit = std::function<void(const DrawnPath&)>;
+using Visit = std::function<void(DrawnPath&)>;
 
 LightEnd end_of(const Walk& start) {
     return {start.infinite_light ? -start.ray.direction : start.previous_position,
@@ -131,6 +131,8 @@ void visit_light_tracing(const Estimator& e, const RecordedWalk& light, const Vi
     const vec3 lens = lens_point(e.camera, {u.x, u.y});
     DrawnPath p = join({}, 0, &light, v.index, end_of(light.start), lens);
     p.contribution = s->contribution;
+    p.x = s->x;
+    p.y = s->y;
     add_light_pdfs(p, light, v.index - 1);
     add_light_end(p, 1);
     p.pdfs.vertices[1].camera_w =
@@ -141,7 +143,6 @@ void visit_light_tracing(const Estimator& e, const RecordedWalk& light, const Vi
 void visit_hit(const Estimator& e, const RecordedWalk& camera, Reached reached,
                const Visit& visit) {
     const Walk& w = camera.now;
-    if (w.index < 2) return;
     const std::optional<Contribution> c = hit_light(e, w, reached);
     if (!c) return;
     LightEnd end;
@@ -249,10 +250,16 @@ void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
 
 }  // namespace
 
-void draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& visit) {
+void draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& found) {
     std::optional<RecordedWalk> light;
     if (e.families.needs_light_subpaths())
-        light = record_light(e, paired_subpath(e, x, y, pass), pass, visit);
+        light = record_light(e, paired_subpath(e, x, y, pass), pass, found);
+    // What the camera's walk finds belongs to its own pixel.
+    const Visit visit = [&](DrawnPath& p) {
+        p.x = x;
+        p.y = y;
+        found(p);
+    };
     RecordedWalk camera;
     camera.start = camera.now = start_camera_walk(e, x, y, pass);
     for (;;) {

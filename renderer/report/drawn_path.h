@@ -17,13 +17,15 @@ struct DrawnPath {
     std::vector<PathVertex> surfaces;
     vec3 lens{0}, light{0};  // `light` is a direction where `infinite`
     bool infinite = false;
+    int x = 0, y = 0;  // the pixel it contributes to
 
     int edges() const { return pdfs.edges(); }
 };
 
-// Calls `visit` with every path of at least two edges that the sample of a pixel draws.
+// Calls `visit` with every path that the sample of a pixel draws, each with its contribution. A
+// path of one edge (a lamp seen directly) has one strategy and no weights to form.
 void draw_paths(const Estimator& e, int x, int y, std::uint64_t pass,
-                const std::function<void(const DrawnPath&)>& visit);
+                const std::function<void(DrawnPath&)>& visit);
 
 // The same path with each pdf evaluated anew, in float geometry, by a walk through its vertices
 // from the camera (Transport::radiance) or from the light. `scatters[i]` tells whether vertex i

@@ -44,8 +44,14 @@ void add_path(FloatRecursion& r, size_t exponent, const WeighedPath& path,
 
 double density_range(const PathPdfs& pdfs);  // decades
 
-// Made-up paths of `edges` edges whose densities spread evenly over `decades` decades: the same
-// table where no scene sets a limit.
-FloatRecursion made_up_float_recursion(int edges, double decades, int paths, std::uint64_t seed);
+// Made-up paths whose densities spread evenly over up to so many decades: the same table where no
+// scene sets a limit.
+struct MadeUpPaths {
+    int edges = 11;
+    double decades = 40;
+    int paths = 20000;
+    std::uint64_t seed = 1;
+};
+FloatRecursion made_up_float_recursion(const MadeUpPaths& paths);
 
 }  // namespace midway

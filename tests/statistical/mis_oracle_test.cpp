@@ -50,6 +50,7 @@ std::int64_t draw(const Subject& s, std::int64_t wanted, const Visit& visit) {
         for (int y = s.estimator.crop.y0; y < s.estimator.crop.y1; ++y)
             for (int x = s.estimator.crop.x0; x < s.estimator.crop.x1; ++x)
                 draw_paths(s.estimator, x, y, pass, [&](const DrawnPath& p) {
+                    if (p.edges() < 2) return;
                     ++count;
                     visit(p);
                 });
