@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "math/float_mode.h"
+#include "render/worker_priority.h"
 
 namespace midway {
 namespace {
@@ -34,21 +35,46 @@ void render_pixel(const Estimator& e, int samples, int x, int y, AovImages& out)
     out.object.at(px, py) = vec3(p ? static_cast<float>(p->hit.object + 1) : 0.0f);
 }
 
-}  // namespace
-
-AovImages render_aovs(const Estimator& e, int samples, int threads) {
-    const int width = e.crop.width(), height = e.crop.height();
-    AovImages out{Image(width, height), Image(width, height), Image(width, height),
-                  Image(width, height)};
+// False where `control`, if there is one, ended it early.
+bool render_rows(const Estimator& e, int samples, int threads, const RenderControl* control,
+                 AovImages& out) {
     std::atomic<int> next{e.crop.y0};
+    std::atomic<bool> whole{true};
     std::vector<std::jthread> workers;
     for (int i = 0; i < threads; ++i)
         workers.emplace_back([&] {
             const ScopedFlushToZero flush;
+            if (control) lower_priority();
             for (int y = next++; y < e.crop.y1; y = next++)
-                for (int x = e.crop.x0; x < e.crop.x1; ++x) render_pixel(e, samples, x, y, out);
+                for (int x = e.crop.x0; x < e.crop.x1; ++x) {
+                    if (control && !control->go_on()) {
+                        whole = false;
+                        return;
+                    }
+                    render_pixel(e, samples, x, y, out);
+                }
         });
     workers.clear();
+    return whole;
+}
+
+AovImages blank(const Estimator& e) {
+    const Image image(e.crop.width(), e.crop.height());
+    return {image, image, image, image};
+}
+
+}  // namespace
+
+AovImages render_aovs(const Estimator& e, int samples, int threads) {
+    AovImages out = blank(e);
+    render_rows(e, samples, threads, nullptr, out);
+    return out;
+}
+
+std::optional<AovImages> render_aovs(const Estimator& e, int samples, int threads,
+                                     const RenderControl& control) {
+    AovImages out = blank(e);
+    if (!render_rows(e, samples, threads, &control, out)) return {};
     return out;
 }
 

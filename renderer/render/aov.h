@@ -2,6 +2,9 @@
 // lens as the image. Sums of a pixel run in the order of its samples, so threads do not show.
 #pragma once
 
+#include <optional>
+
+#include "render/render_control.h"
 #include "render/settings.h"
 
 namespace midway {
@@ -14,5 +17,9 @@ struct AovImages {
 };
 
 AovImages render_aovs(const Estimator& estimator, int samples, int threads);
+
+// The same for a window: with workers of low priority, and empty where `control` ended it early.
+std::optional<AovImages> render_aovs(const Estimator& estimator, int samples, int threads,
+                                     const RenderControl& control);
 
 }  // namespace midway

@@ -54,9 +54,8 @@ class LiveChannels {
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     // Under the mutex.
-    bool quit_ = false, first_out_ = true;
+    bool quit_ = false, running_ = false, stopped_ = false, first_out_ = false;
     Clock::time_point started_;
-    std::uint64_t generation_ = 0;  // of clear()
     std::optional<Pending> pending_;
     std::shared_ptr<const ChannelSnapshot> snapshot_;
 

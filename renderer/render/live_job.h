@@ -19,6 +19,8 @@ struct LiveJob {
     bool statistics = false;  // per strategy
 };
 
+int thread_count(const LiveJob& job);
+
 // A rectangle of the whole image, in its pixels. A coarse image may reach a little beyond the crop
 // (and the image), by less than one of its pixels: cut it off there.
 struct ImagePlacement {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "render/live_channels.h"
+#include "render/live_images.h"
 #include "render/render_control.h"
 #include "render/renderer.h"
 
@@ -92,26 +93,43 @@ class LiveRender {
     struct Running;
 
     void coordinate();
-    void render_job(Pending pending);
-    void first_images(Running& r);
+    void render_job(Running& r);
+    bool refine(Running& r);
     void accumulate(Running& r);
     bool render(Running& r, std::uint64_t passes);
-    void publish(Running& r);
-    void fail(const Pending& pending, const std::string& error);
-    void show(std::shared_ptr<const Snapshot> snapshot);
+    bool publish(Running& r, bool finished);
+    void fail(Running& r, const std::string& error);
+    void show(Running& r, std::shared_ptr<const Snapshot> snapshot);
+    int first_scale(const LiveJob& job);
+    void free_retired();
+
+    // With the mutex held.
+    bool superseded() const { return quit_ || cleared_ || pending_; }
+    bool reached_limits(const Running& r) const;
+    Clock::duration paused_time(Clock::time_point now) const;  // of the job that runs
 
     std::function<void()> published_;
     RenderControl control_;
     LiveChannels channels_;
+
+    // Of the coordinator alone.
     LiveCost cost_;
+    ImagePool pool_;
+    int last_first_scale_ = 0;
+    std::jthread cleaner_;  // gives back what finished jobs held
 
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     // Under the mutex.
-    bool quit_ = false, paused_ = false, channels_wanted_ = false;
+    bool quit_ = false, cleared_ = false, paused_ = false, channels_wanted_ = false;
+    bool running_ = false, first_out_ = false;  // a job runs; its first image is published
+    Clock::time_point started_;                 // of the job that runs
+    std::optional<Clock::time_point> stop_asked_, paused_since_;
+    Clock::duration paused_for_{0};
     std::uint64_t last_number_ = 0;
     std::optional<Pending> pending_;
-    std::optional<LiveJob> current_;
+    std::optional<LiveJob> current_;                    // the newest job, with the newest limits
+    std::vector<std::shared_ptr<const void>> retired_;  // to be freed where nobody waits
     std::shared_ptr<const Snapshot> snapshot_;
     LiveLatency latency_;
 

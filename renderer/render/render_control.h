@@ -22,7 +22,11 @@ class RenderControl {
         change(State::ending);
     }
 
-    bool paused() const { return state_.load(std::memory_order_relaxed) == State::paused; }
+    // Like go_on(), but never sleeps.
+    bool cancelled() const {
+        const State state = state_.load(std::memory_order_acquire);
+        return state == State::cancelled || (state == State::ending && too_late());
+    }
 
     // For workers: false where they shall stop. Costs one relaxed load while all is well.
     bool go_on() const {
@@ -37,14 +41,16 @@ class RenderControl {
         state_.notify_all();
     }
 
+    bool too_late() const {
+        return Clock::now().time_since_epoch().count() >= deadline_.load(std::memory_order_relaxed);
+    }
+
     bool wait_for_word() const {
         for (;;) {
             const State state = state_.load(std::memory_order_acquire);
             if (state == State::running) return true;
             if (state == State::cancelled) return false;
-            if (state == State::ending)
-                return Clock::now().time_since_epoch().count() <
-                       deadline_.load(std::memory_order_relaxed);
+            if (state == State::ending) return !too_late();
             state_.wait(State::paused, std::memory_order_acquire);
         }
     }

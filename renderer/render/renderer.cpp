@@ -1,14 +1,13 @@
 #include "render/renderer.h"
 
-#include <sys/resource.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 #include "math/float_mode.h"
+#include "render/worker_priority.h"
 
 namespace midway {
 namespace {
@@ -31,13 +30,6 @@ Tiles make_tiles(const PixelRect& crop, std::uint64_t passes, int threads) {
     Tiles tiles{crop};
     while (tiles.size > 4 && tiles.count() * passes < 16 * std::uint64_t(threads)) tiles.size /= 2;
     return tiles;
-}
-
-// Others go first; what cannot be had is done without.
-void lower_priority() {
-#ifdef __linux__
-    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
-#endif
 }
 
 double thread_cpu_seconds() {
