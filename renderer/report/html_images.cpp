@@ -65,7 +65,7 @@ double usual_difference(const std::vector<PageImage>& images) {
             if (std::isfinite(d)) differences.push_back(std::abs(d));
         }
     if (differences.empty()) return 0;
-    const auto place = differences.begin() + std::ptrdiff_t(differences.size() * 9 / 10);
+    const auto place = differences.begin() + std::ptrdiff_t(differences.size() * 97 / 100);
     std::nth_element(differences.begin(), place, differences.end());
     return *place > 0 ? std::round(std::log2(double(*place)) * 4) / 4 : 0;
 }

@@ -277,6 +277,14 @@ class Dark(Page):
         self.assertEqual("rgb(20, 24, 27)", self.browser.evaluate(
             "getComputedStyle(document.body).backgroundColor"))
 
+    def test_paper_is_white(self):
+        colours = ("[midway.css('--ink'), Chart.getChart(document.querySelector('.plot canvas'))"
+                   ".data.datasets[0].borderColor]")
+        self.browser.evaluate("dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(["#1d2327", "#00857a"], self.browser.evaluate(colours))
+        self.browser.evaluate("dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(["#e4e7e6", "#2fc4b2"], self.browser.evaluate(colours))
+
 
 class Phone(Page):
     width, height, options = 400, 800, {"touch": True}

@@ -167,16 +167,19 @@ midway.draw_chart = (figure) => {
         };
     };
 
+    const same_x = (items) => new Set((items ?? []).map((item) => midway.number(item.raw.x))).size === 1;
     const tooltip = () => ({
         itemSort: (a, b) => b.raw.y - a.raw.y, filter: (item) => !item.dataset.band, usePointStyle: true,
         backgroundColor: midway.css("--panel"), titleColor: midway.css("--ink"), bodyColor: midway.css("--ink"),
         borderColor: midway.css("--muted"), borderWidth: 1, padding: 10, bodyFont: { size: 13 },
         callbacks: {
-            title: () => `${state.y.label}`,
+            title: (items) => same_x(items) ? `${state.y.label} · ${state.x.label}: ${midway.number(items[0].raw.x)}`
+                : `${state.y.label} · ${state.x.label}`,
             label: (item) => {
                 const { x, y, low, high } = item.raw;
                 const band = low === null || high === null ? "" : ` (${midway.number(low)} … ${midway.number(high)})`;
-                return ` ${item.dataset.label}: ${midway.number(y)}${band} at ${midway.number(x)}`;
+                const at = same_x(item.chart.tooltip.dataPoints) ? "" : ` at ${midway.number(x)}`;
+                return ` ${item.dataset.label}: ${midway.number(y)}${band}${at}`;
             },
         },
     });

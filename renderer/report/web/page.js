@@ -18,9 +18,11 @@ midway.spare_looks = [
     ["#5f3a13", "#d0a070", "rectRot"], ["#2d6a2d", "#8fd08f", "cross"], ["#555c60", "#b5bdc2", "star"],
 ];
 midway.given_looks = new Map();  // spare looks in use on this page
-midway.printing = false;
 
-midway.dark = () => !midway.printing && matchMedia("(prefers-color-scheme: dark)").matches;
+// The page has the class `printing` while it is made ready for paper.
+midway.printing = () => document.documentElement.classList.contains("printing");
+
+midway.dark = () => !midway.printing() && matchMedia("(prefers-color-scheme: dark)").matches;
 
 midway.css = (name) =>
     getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -102,7 +104,7 @@ addEventListener("DOMContentLoaded", () => {
 
 // Paper is white and cannot unfold anything.
 addEventListener("beforeprint", () => {
-    midway.printing = true;
+    document.documentElement.classList.add("printing");
     for (const details of document.querySelectorAll("details:not([open]):not(.screen-only)")) {
         details.open = true;
         details.dataset.folded = "";
@@ -110,7 +112,7 @@ addEventListener("beforeprint", () => {
     midway.retheme();
 });
 addEventListener("afterprint", () => {
-    midway.printing = false;
+    document.documentElement.classList.remove("printing");
     for (const details of document.querySelectorAll("details[data-folded]")) {
         details.open = false;
         delete details.dataset.folded;
