@@ -55,7 +55,7 @@ void set_spacing(ImGuiStyle& s, float scale) {
     s.ItemSpacing = {7, 6};
     s.ItemInnerSpacing = {6, 4};
     s.IndentSpacing = 14;
-    s.ScrollbarSize = 10;
+    s.ScrollbarSize = 7;
     s.GrabMinSize = 9;
     s.WindowBorderSize = 0;
     s.PopupBorderSize = 1;

@@ -12,11 +12,32 @@ namespace {
 
 const char* window_of(Side side) { return side == Side::left ? "##left" : "##right"; }
 
-// The slider's places: logarithmic, so that 0, 1 and 2 stand well apart.
+// The slider's places: linear between these, so that the marks 0, 1 and 2 have room for their
+// names.
+struct Stop {
+    double exponent;
+    float place;
+};
+constexpr std::array<Stop, 4> stops = {{{0, 0}, {1, 0.33f}, {2, 0.62f}, {8, 1}}};
+
 float place_of(double exponent) {
-    return static_cast<float>(std::log2(1 + exponent) / std::log2(9.0));
+    for (size_t i = 0; i + 1 < stops.size(); ++i) {
+        const Stop &a = stops[i], &b = stops[i + 1];
+        if (exponent <= b.exponent)
+            return a.place + (b.place - a.place) * static_cast<float>((exponent - a.exponent) /
+                                                                      (b.exponent - a.exponent));
+    }
+    return 1;
 }
-double exponent_at(float place) { return std::exp2(place * std::log2(9.0)) - 1; }
+
+double exponent_at(float place) {
+    for (size_t i = 0; i + 1 < stops.size(); ++i) {
+        const Stop &a = stops[i], &b = stops[i + 1];
+        if (place <= b.place)
+            return a.exponent + (b.exponent - a.exponent) * (place - a.place) / (b.place - a.place);
+    }
+    return stops.back().exponent;
+}
 
 double rounded_exponent(double b) {
     for (const double mark : {0.0, 1.0, 2.0})
@@ -28,8 +49,8 @@ struct Mark {
     double exponent;
     const char* name;
 };
-constexpr std::array<Mark, 5> marks = {
-    {{0, "naive 0"}, {1, "balance 1"}, {2, "power 2"}, {4, "4"}, {8, "8"}}};
+constexpr std::array<Mark, 4> marks = {
+    {{0, "naive 0"}, {1, "balance 1"}, {2, "power 2"}, {8, "8"}}};
 
 // Text centred at x, kept within the item; true where it was clicked.
 bool mark_label(const Mark& mark, float x, float y, float low, float high, bool chosen) {
@@ -263,6 +284,30 @@ bool wide_button(const char* label, const char* tooltip, float width) {
     tip(tooltip);
     return clicked;
 }
+
+void begin_sheet(const char* name, bool& open) {
+    constexpr ImGuiWindowFlags still = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::rgb(0, 0.55f));
+    ImGui::Begin("##dim", nullptr, still);
+    ImGui::PopStyleColor();
+    if (ImGui::InvisibleButton("beside", ImGui::GetContentRegionAvail())) open = false;
+    ImGui::End();
+
+    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({em(10), em(6)}, {size.x - em(2), size.y - em(2)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(1.4f), em(1.1f)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em(0.4f));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+    ImGui::Begin(name, nullptr, still | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PopStyleVar(3);
+    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+}
+
+void end_sheet() { ImGui::End(); }
 
 std::string fitted(const std::string& text, float width) {
     const auto width_of = [](const std::string& s) { return ImGui::CalcTextSize(s.c_str()).x; };

@@ -63,6 +63,10 @@ bool exponent_slider(double& exponent);
 // A button that fills the width given (0: by its text).
 bool wide_button(const char* label, const char* tooltip, float width = 0);
 
+// A sheet over the whole window, in its middle, with all else dimmed; a click beside it closes it.
+void begin_sheet(const char* name, bool& open);
+void end_sheet();
+
 // Text that fits the width, its middle left out where it must.
 std::string fitted(const std::string& text, float width);
 

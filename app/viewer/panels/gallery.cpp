@@ -54,21 +54,15 @@ Change draw_gallery(App& app) {
     if (!app.ui.gallery) return {};
     PanelState& state = app.ui.panel;
     if (!state.gallery) state.gallery = read_gallery(assets_folder());
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSizeConstraints({em(20), em(8)}, {size.x - em(2), size.y - em(2)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(1.2f), em(0.9f)});
+    ui::begin_sheet("##gallery", app.ui.gallery);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {em(1), em(0.9f)});
-    ImGui::Begin("##gallery", nullptr,
-                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
-    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
     ImGui::PushFont(theme::heading_font());
     ImGui::TextUnformatted("Scenes to try");
     ImGui::PopFont();
     const std::vector<GalleryEntry>& entries = *state.gallery;
     if (entries.empty()) ImGui::TextUnformatted("The folder assets/ is not beside this program.");
-    const int columns = std::clamp(static_cast<int>((size.x - em(5)) / em(card_width + 1)), 1, 4);
+    const int columns = std::clamp(
+        static_cast<int>((ImGui::GetIO().DisplaySize.x - em(5)) / em(card_width + 1)), 1, 4);
     for (size_t i = 0; i < entries.size(); ++i) {
         if (i % static_cast<size_t>(columns) != 0) ImGui::SameLine();
         if (card(i, entries[i])) {
@@ -77,8 +71,8 @@ Change draw_gallery(App& app) {
         }
     }
     if (ImGui::Button("Close")) app.ui.gallery = false;
-    ImGui::End();
-    ImGui::PopStyleVar(2);
+    ImGui::PopStyleVar();
+    ui::end_sheet();
     return {};
 }
 

@@ -20,66 +20,42 @@ void line(const char* key, const char* what) {
 }
 
 void headline(const char* text) {
-    ImGui::TableNextRow(0, ImGui::GetTextLineHeight() * 1.7f);
-    ImGui::TableNextColumn();
     ImGui::Dummy({0, em(0.3f)});
     ImGui::PushFont(theme::heading_font());
     ImGui::TextUnformatted(text);
     ImGui::PopFont();
-    ImGui::TableNextColumn();
 }
 
-bool begin_columns(const char* id, float keys, float words) {
+bool begin_lines(const char* id, float keys) {
     if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX))
         return false;
     ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, em(keys));
-    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, em(words));
+    ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, em(12.5f));
     return true;
 }
 
+void draw_group(std::string_view group) {
+    headline(group.data());
+    if (!begin_lines(group.data(), 6.2f)) return;
+    for (const KeyBinding& b : key_bindings())
+        if (b.group == group && *b.what) line(b.shown, b.what);
+    ImGui::EndTable();
+}
+
 // The groups of the table whose number is even, or odd.
-void groups(int parity) {
+void draw_groups(int parity) {
     std::string_view group;
     int number = -1;
     for (const KeyBinding& b : key_bindings()) {
-        if (b.group != group) {
-            group = b.group;
-            if (++number % 2 == parity) headline(b.group);
-        }
-        if (number % 2 == parity && *b.what) line(b.shown, b.what);
+        if (b.group == group) continue;
+        group = b.group;
+        if (++number % 2 == parity) draw_group(group);
     }
 }
 
-}  // namespace
-
-Change draw_keys(App& app) {
-    const Change change = handle_keys(app);
-    if (!app.ui.keys) return change;
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowFocus();
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(1.2f), em(0.8f)});
-    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {em(0.3f), em(0.08f)});
-    ImGui::Begin("##keys", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::BeginGroup();
-    if (begin_columns("first", 6.5f, 13)) {
-        groups(0);
-        ImGui::EndTable();
-    }
-    ImGui::EndGroup();
-    ImGui::SameLine(0, em(1.5f));
-    ImGui::BeginGroup();
-    if (begin_columns("second", 6.5f, 12)) {
-        groups(1);
-        ImGui::EndTable();
-    }
-    ImGui::EndGroup();
-    ImGui::SameLine(0, em(1.5f));
-    ImGui::BeginGroup();
-    if (begin_columns("mouse", 10.5f, 13)) {
-        headline("Mouse");
+void draw_mouse(App& app) {
+    headline("Mouse");
+    if (begin_lines("mouse", 10.6f)) {
         for (const MouseHint& h : mouse_hints()) line(h.gesture, h.what);
         ImGui::EndTable();
     }
@@ -90,9 +66,23 @@ Change draw_keys(App& app) {
     }
     ImGui::SameLine();
     if (ImGui::Button("Close")) app.ui.keys = false;
-    ImGui::EndGroup();
-    ImGui::End();
-    ImGui::PopStyleVar(2);
+}
+
+}  // namespace
+
+Change draw_keys(App& app) {
+    const Change change = handle_keys(app);
+    if (!app.ui.keys) return change;
+    ui::begin_sheet("##keys", app.ui.keys);
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {em(0.2f), em(0.08f)});
+    for (int column = 0; column < 3; ++column) {
+        if (column > 0) ImGui::SameLine(0, em(1.2f));
+        ImGui::BeginGroup();
+        column < 2 ? draw_groups(column) : draw_mouse(app);
+        ImGui::EndGroup();
+    }
+    ImGui::PopStyleVar();
+    ui::end_sheet();
     return change;
 }
 

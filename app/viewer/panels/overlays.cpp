@@ -88,7 +88,7 @@ void draw_loading(const App& app) {
 
 void draw_notice(const App& app) {
     if (app.ui.notice.empty() || ImGui::GetTime() >= app.ui.notice_until) return;
-    begin_floating(app, "##notice", {0.5f, 1}, {0.5f, 1});
+    begin_floating(app, "##notice", {1, 1}, {1, 1});
     ImGui::TextUnformatted(ui::fitted(app.ui.notice, app.ui.view.size().x - em(4)).c_str());
     ImGui::End();
 }
@@ -104,14 +104,16 @@ std::optional<Legend> legend_of(const App& app) {
     if (d.channel == Channel::image && d.false_colour)
         return Legend{"luminance after exposure, in stops", d.stop_low, d.stop_high};
     if (d.channel == Channel::error)
-        return Legend{"estimated error of a pixel", error_stops.x, error_stops.y, true};
+        return Legend{"estimated error of a pixel, from the second sample on", error_stops.x,
+                      error_stops.y, true};
     if (d.channel == Channel::samples)
         return Legend{"samples of a pixel", sample_stops.x, sample_stops.y, false, true};
     return {};
 }
 
 std::string legend_label(const Legend& l, float stop) {
-    if (l.percent) return fmt::format("{:.2g} %", 100 * std::exp2(stop));
+    const float percent = 100 * std::exp2(stop);
+    if (l.percent) return fmt::format("{:.{}f} %", percent, percent < 1 ? 2 : 0);
     if (l.counts) return fmt::format("{:.0f}", std::exp2(stop));
     return fmt::format("{:+.3g}", stop);
 }

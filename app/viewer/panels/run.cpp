@@ -46,9 +46,8 @@ Change draw_resolution(App& app) {
     RenderSettings& s = app.render.settings;
     ui::row("Resolution",
             "Pixels of the image. With \"As the window\" it follows the window's size.");
-    const std::string shown = app.render.fit_window
-                                  ? fmt::format("As the window ({} x {})", s.width, s.height)
-                                  : fmt::format("{} x {}", s.width, s.height);
+    const std::string shown = app.render.fit_window ? std::string("As the window")
+                                                    : fmt::format("{} x {}", s.width, s.height);
     if (ImGui::BeginCombo("##resolution", shown.c_str())) {
         if (ImGui::Selectable("As the window", app.render.fit_window)) {
             app.render.fit_window = true;
@@ -85,7 +84,7 @@ Change draw_region(App& app) {
         choose_tool(app, ViewTool::region);
     if (s.crop) {
         ImGui::SameLine();
-        if (ui::wide_button("Whole image", "Renders the whole image again", width)) {
+        if (ui::wide_button("Whole", "Renders the whole image again", width)) {
             s.crop.reset();
             change.settings = true;
         }

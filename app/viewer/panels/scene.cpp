@@ -21,10 +21,18 @@ std::string counted(size_t n, const char* one, const char* many) {
 
 std::string contents(const PreparedScene& p) {
     const Geometry& g = *p.scene->geometry;
-    return fmt::format("{}, {}, {}, {}", counted(g.triangle_count, "triangle", "triangles"),
-                       counted(g.objects.size(), "object", "objects"),
-                       counted(p.description.materials.size(), "material", "materials"),
-                       counted(p.scene->lights.size(), "light", "lights"));
+    size_t emissive = 0, lamps = 0;
+    for (const Light& l : p.scene->lights) {
+        emissive += l.kind == LightKind::area;
+        lamps += is_delta(l.kind);
+    }
+    std::string text =
+        fmt::format("{}, {}, {}", counted(g.triangle_count, "triangle", "triangles"),
+                    counted(g.objects.size(), "object", "objects"),
+                    counted(p.description.materials.size(), "material", "materials"));
+    if (emissive > 0) text += ", " + counted(emissive, "triangle", "triangles") + " that shine";
+    if (lamps > 0) text += ", " + counted(lamps, "lamp", "lamps") + " without size";
+    return text;
 }
 
 // "R,G,B" where the sky is one colour.

@@ -48,8 +48,9 @@ std::optional<Rect> point_at(const App& app, const Step& step) {
     const auto place = app.ui.panel.section_places.find(step.section);
     if (place == app.ui.panel.section_places.end() || !app.ui.panels) return {};
     const auto& [x0, y0, x1, y1] = place->second;
-    ImGui::GetForegroundDrawList()->AddRect({x0, y0}, {x1, y1}, theme::color(theme::light),
-                                            em(0.3f), 0, em(0.14f));
+    const float room = em(0.4f);
+    ImGui::GetForegroundDrawList()->AddRect({x0 - room, y0 - room / 2}, {x1 + room, y1},
+                                            theme::color(theme::light), em(0.3f), 0, em(0.14f));
     return Rect{{x0, y0}, {x1, y1}};
 }
 
