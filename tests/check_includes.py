@@ -22,14 +22,14 @@ LIBRARIES = {
     "OpenEXR": (r"OpenEXR/|Imath/|Imf|Imath|Iex|openexr", ["renderer/image/"]),
     "stb_image": (r"(stb/)?stb_image\.h$", ["renderer/image/", "renderer/io/"]),
     "stb": (r"(stb/)?stb_", ["renderer/image/"]),
-    "GLFW, GL, ImGui": (r"GLFW/|GL/|GLES\d?/|EGL/|KHR/|glad/|imgui|ImGui", ["app/viewer/"]),
+    "GLFW, GL, ImGui": (r"GLFW/|GL/|GLES\d?/|EGL/|KHR/|glad/|(backends/)?imgui|ImGui", ["app/viewer/"]),
     "CLI11": (r"CLI/", ["app/batch/"]),
     "nlohmann-json": (r"nlohmann/", ["renderer/io/", "renderer/render/", "renderer/report/",
                                      "renderer/image/", "app/"]),
     "fmt": (r"fmt/", [""]),
     "GLM": (r"glm/", [""]),
     # Not third-party: the C library, POSIX and the compiler's own.
-    "system": (r"(sys|linux|asm)/|(dirent|errno|fcntl|fenv|float|inttypes|limits|locale|math|poll|"
+    "system": (r"(sys|linux|asm)/|(dirent|dlfcn|errno|fcntl|fenv|float|inttypes|limits|locale|math|poll|"
                r"pthread|sched|signal|spawn|stdio|stdlib|string|time|unistd|[a-z]mmintrin|"
                r"x86intrin|cpuid)\.h$", [""]),
     "standard library": (r"[a-z_0-9]+$", [""]),
