@@ -172,7 +172,7 @@ class Images(Page):
         self.assertEqual(before - 2, ev)
         at = self.image_point(LEFT, ((x + .5) / 256, (y + .5) / 256))
         for shown, linear in zip(self.colour(LEFT, at), self.expected["path"]):
-            self.assertAlmostEqual(srgb(linear * 2 ** ev), shown, delta=1.5)
+            self.assertAlmostEqual(srgb(linear * 2 ** ev), shown, delta=.75)
 
     def test_wheel_zooms_both_and_keeps_the_place(self):
         away = (self.ball[0] + 60, self.ball[1])
