@@ -67,8 +67,7 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
     const float seen =
         is_infinite(kind)
             ? visibility_to_infinity(*e.scene, from, n->direction)
-            : visibility(*e.scene, from,
-                         offset_origin(n->target, n->normal, n->error, -n->direction));
+            : visibility(*e.scene, from, offset_end(n->target, n->normal, n->error, v.position));
     if (seen == 0) return {};
     c.value *= seen;
     return c;
@@ -99,7 +98,8 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
     if (no_weight(e, c)) return {};
 
     rays.count_shadow(c.strategy);
-    const float seen = visibility(*e.scene, leave(v, direction), leave(l, -direction));
+    const float seen = visibility(*e.scene, leave(v, direction),
+                                  offset_end(l.position, l.ng, l.error, v.position));
     if (seen == 0) return {};
     c.value *= seen;
     return c;

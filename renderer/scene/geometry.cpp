@@ -52,6 +52,12 @@ vec3 offset_origin(const vec3& position, const vec3& ng, float error, const vec3
     return position + ng * std::copysign(error, glm::dot(ng, towards));
 }
 
+vec3 offset_end(const vec3& position, const vec3& ng, float error, const vec3& from) {
+    const vec3 back = from - position;
+    const float far_error = error_steps * half_ulp * max_component(glm::abs(back));
+    return offset_origin(position, ng, error + far_error, back);
+}
+
 TriangleShape triangle_shape(const Object& o, int triangle) {
     const uvec3& t = o.triangles[triangle];
     const vec3 c =

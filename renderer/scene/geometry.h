@@ -62,6 +62,11 @@ SurfacePoint surface_point(const Object& object, const TriangleHit& hit);
 // for the ray not to meet the surface it left (error bound of the hit; no absolute epsilon).
 vec3 offset_origin(const vec3& position, const vec3& ng, float error, const vec3& towards);
 
+// Where a ray from `from` (its place before any offset) to a point on a surface ends without
+// meeting it. A triangle is tested relative to the ray's origin, so at this end rounding grows with
+// the ray's length too.
+vec3 offset_end(const vec3& position, const vec3& ng, float error, const vec3& from);
+
 struct TriangleShape {
     vec3 normal{0};  // unit, of the front
     float area = 0;
