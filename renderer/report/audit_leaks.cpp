@@ -39,33 +39,54 @@ Real distance_to_segment(const Vec& origin, const Vec& d, const Vec& a, const Ve
     return std::sqrt(dot(gap, gap));
 }
 
-// What the ray meets first in long double, by Moeller and Trumbore (1997), and how close it comes
-// to an edge.
-struct ExactRay {
-    bool hit = false, sees_front = false;
+// Where a ray crosses the plane of a triangle, in long double (Moeller & Trumbore 1997).
+struct Crossing {
+    bool inside = false, sees_front = false;
     Real t = 0;
+};
+Crossing cross_triangle(const Object& o, int triangle, const Vec& origin, const Vec& d) {
+    const uvec3& index = o.triangles[triangle];
+    const Vec v0(o.positions[index.x]);
+    const Vec e1 = Vec(o.positions[index.y]) - v0, e2 = Vec(o.positions[index.z]) - v0;
+    const Vec p = cross(d, e2);
+    const Real det = dot(e1, p);
+    if (det == 0) return {};
+    const Vec s = origin - v0, q = cross(s, e1);
+    const Real u = dot(s, p) / det, v = dot(d, q) / det;
+    // The ray sees the front where it runs against the normal e1 x e2.
+    return {u >= 0 && v >= 0 && u + v <= 1, det > 0, dot(e2, q) / det};
+}
+
+// What the ray meets first within [0, end], and how close it comes to an edge.
+struct ExactRay {
+    bool hit = false;
+    Crossing first;
     Real edge_distance = std::numeric_limits<Real>::infinity();
 };
-
-ExactRay trace_exactly(const Object& o, const Ray& ray) {
+ExactRay trace_exactly(const Object& o, const Vec& origin, const Vec& d, Real end, int skip = -1) {
     ExactRay result;
-    const Vec origin(ray.origin), d(ray.direction);
-    for (const uvec3& index : o.triangles) {
-        const Vec v0(o.positions[index.x]), v1(o.positions[index.y]), v2(o.positions[index.z]);
-        for (const auto& [a, b] : {std::pair{v0, v1}, {v1, v2}, {v2, v0}})
-            result.edge_distance =
-                std::min(result.edge_distance, distance_to_segment(origin, d, a, b));
-        const Vec e1 = v1 - v0, e2 = v2 - v0, p = cross(d, e2);
-        const Real det = dot(e1, p);
-        if (det == 0) continue;
-        const Vec s = origin - v0, q = cross(s, e1);
-        const Real u = dot(s, p) / det, v = dot(d, q) / det, t = dot(e2, q) / det;
-        if (u < 0 || v < 0 || u + v > 1 || !(t > 0) || (result.hit && t >= result.t)) continue;
+    for (int i = 0; i < static_cast<int>(o.triangles.size()); ++i) {
+        const uvec3& index = o.triangles[i];
+        const Vec v[3] = {Vec(o.positions[index.x]), Vec(o.positions[index.y]),
+                          Vec(o.positions[index.z])};
+        for (int k = 0; k < 3; ++k)
+            result.edge_distance = std::min(result.edge_distance,
+                                            distance_to_segment(origin, d, v[k], v[(k + 1) % 3]));
+        const Crossing c = cross_triangle(o, i, origin, d);
+        if (i == skip || !c.inside || !(c.t > 0) || c.t > end) continue;
+        if (result.hit && c.t >= result.first.t) continue;
         result.hit = true;
-        result.t = t;
-        result.sees_front = det > 0;  // the ray runs against the normal e1 x e2
+        result.first = c;
     }
     return result;
+}
+
+// Is what was found what long double finds? Of surfaces that touch within rounding, either will do.
+bool agree(const Object& o, const ExactRay& exact, const TriangleHit& found, const Vec& origin,
+           const Vec& d, Real error) {
+    if (!exact.hit || found.object < 0) return exact.hit == (found.object >= 0);
+    const Crossing c = cross_triangle(o, found.triangle, origin, d);
+    return std::abs(c.t - exact.first.t) * std::sqrt(dot(d, d)) <= 4 * error;
 }
 
 }  // namespace
@@ -99,23 +120,23 @@ LeakFinding follow(const ClosedMesh& mesh, const LeavingRay& leaving) {
     const TriangleHit hit = mesh.accel->closest(leaving.ray, {}, 0);
     const bool must_hit = leaving.front == mesh.front_bounded;
     if (hit.object < 0 && !must_hit) return {};
-    bool sees_front = false;
     if (hit.object >= 0) {
-        sees_front = glm::dot(triangle_shape(o, hit.triangle).normal, leaving.ray.direction) < 0;
+        const bool sees_front =
+            glm::dot(triangle_shape(o, hit.triangle).normal, leaving.ray.direction) < 0;
         if (sees_front == leaving.front) return {};
     }
-    const ExactRay exact = trace_exactly(o, leaving.ray);
-    Ray start = leaving.ray;
-    start.origin = leaving.start;
-    const Real edge =
-        std::min(exact.edge_distance, trace_exactly(o, start).edge_distance) / leaving.error;
+    constexpr Real endless = std::numeric_limits<Real>::infinity();
+    const Vec origin(leaving.ray.origin), d(leaving.ray.direction), start(leaving.start);
+    const ExactRay exact = trace_exactly(o, origin, d, endless);
+    // The offset may have carried the origin through a neighbour.
+    const ExactRay offset = trace_exactly(o, start, origin - start, 1, leaving.triangle);
+    if (!offset.hit && agree(o, exact, hit, origin, d, leaving.error))
+        return {RayOutcome::overlap, 0};
     LeakFinding finding;
-    finding.edge_distance = static_cast<double>(edge);
-    const bool same =
-        exact.hit == (hit.object >= 0) && (!exact.hit || exact.sees_front == sees_front);
-    finding.outcome = finding.edge_distance <= near_edge ? RayOutcome::leak
-                      : same                             ? RayOutcome::overlap
-                                                         : RayOutcome::unexplained;
+    finding.edge_distance =
+        static_cast<double>(std::min(exact.edge_distance, offset.edge_distance) / leaving.error);
+    finding.outcome =
+        finding.edge_distance <= near_edge ? RayOutcome::leak : RayOutcome::unexplained;
     return finding;
 }
 

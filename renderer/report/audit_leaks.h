@@ -33,6 +33,7 @@ struct LeavingRay {
     Ray ray;
     vec3 start{0};  // the hit, before its offset
     float error = 0;
+    int triangle = -1;
     bool front = true;  // leaves on the side of the front
 };
 LeakFinding follow(const ClosedMesh& mesh, const LeavingRay& leaving);

@@ -36,6 +36,7 @@ struct Tracer {
         const LeavingRay leaving{{offset_origin(v.position, v.ng, v.error, direction), direction},
                                  v.position,
                                  v.error,
+                                 own.triangle,
                                  glm::dot(v.ng, direction) > 0};
         ++sums.rays;
         const TriangleHit hit = e.scene->accel->closest(leaving.ray, {e.scene}, 0);
@@ -67,47 +68,47 @@ struct Tracer {
         }
     }
 
-    // Would a connection see what the walk saw?
-    void try_edge(const Walk& w, const vec3& from, const vec3& ng, float error) {
+    // Would a connection see what the walk saw? To the camera it is traced from the surface, to a
+    // surface from the one before.
+    void try_edge(const Walk& w, const PathVertex* before, const vec3& lens) {
         const PathVertex& v = w.vertex;
-        const vec3 d = v.position - from;
         ++sums.edges;
-        if (visibility(*e.scene, offset_origin(from, ng, error, d),
-                       offset_origin(v.position, v.ng, v.error, -d)) == 0)
+        if (before ? !connects(*before, v) : !sees(v, lens))
             sums.blocked.add(place, name(w.point.hit.object));
+    }
+
+    bool sees(const PathVertex& v, const vec3& point) const {
+        const vec3 from = offset_origin(v.position, v.ng, v.error, point - v.position);
+        return visibility(*e.scene, from, point) > 0;
+    }
+    bool connects(const PathVertex& a, const PathVertex& b) const {
+        const vec3 from = offset_origin(a.position, a.ng, a.error, b.position - a.position);
+        return visibility(*e.scene, from, offset_end(b.position, b.ng, b.error, a.position)) > 0;
     }
 
     void walk(Walk w, bool camera, Numbers& numbers, std::vector<PathVertex>& vertices) {
         place.strategy = camera ? Strategy{1, 0} : Strategy{0, 1};
-        vec3 from = w.previous_position, ng(0, 0, 1);
-        float error = 0;
-        bool joined = camera;  // light subpaths' first edges are next event's business
+        const vec3 start = w.previous_position;
         while (w.index < e.max_bounces) {
             const Reached reached = extend(e, w);
             place.vertex = w.index;
             if (reached == Reached::nothing) ++sums.stopped;
             if (reached != Reached::surface) return;
-            if (joined) try_edge(w, from, ng, error);
-            joined = true;
+            // Light subpaths' first edges are next event's business.
+            if (camera || !vertices.empty())
+                try_edge(w, vertices.empty() ? nullptr : &vertices.back(), start);
             leave(w, w.vertex.to_previous);
             leave_at_random(w, numbers);
             vertices.push_back(w.vertex);
-            from = w.vertex.position;
-            ng = w.vertex.ng;
-            error = w.vertex.error;
             if (!scatter(w)) return;
         }
     }
 
     void try_pair(const PathVertex& a, const PathVertex& b) {
-        const vec3 d = b.position - a.position;
-        if (!(length_squared(d) > 0)) return;
-        const vec3 from = offset_origin(a.position, a.ng, a.error, d);
-        const vec3 to = offset_origin(b.position, b.ng, b.error, -d);
+        if (!(length_squared(b.position - a.position) > 0)) return;
         ++sums.pairs;
         place.vertex = a.index;
-        if ((visibility(*e.scene, from, to) == 0) != (visibility(*e.scene, to, from) == 0))
-            sums.unequal.add(place, "");
+        if (connects(a, b) != connects(b, a)) sums.unequal.add(place, "");
     }
 };
 
