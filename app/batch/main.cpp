@@ -56,7 +56,8 @@ int main(int argc, char** argv) {
         {"diff", midway::add_diff_command(app)},
         {"compare", midway::add_compare_command(app, typed_command(argc, argv))},
         {"merge", midway::add_merge_command(app)},
-        {"check", midway::add_check_command(app)}};
+        {"check", midway::add_check_command(app)},
+        {"view", midway::add_view_command(app)}};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
