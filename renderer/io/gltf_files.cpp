@@ -28,23 +28,6 @@ int hex_digit(char c) {
     return -1;
 }
 
-std::string percent_decode(std::string_view text) {
-    std::string out;
-    out.reserve(text.size());
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool escape = text[i] == '%' && i + 2 < text.size();
-        const int high = escape ? hex_digit(text[i + 1]) : -1;
-        const int low = escape ? hex_digit(text[i + 2]) : -1;
-        if (high >= 0 && low >= 0) {
-            out.push_back(static_cast<char>(high * 16 + low));
-            i += 2;
-        } else {
-            out.push_back(text[i]);
-        }
-    }
-    return out;
-}
-
 std::array<std::int8_t, 256> base64_table() {
     std::array<std::int8_t, 256> table{};
     table.fill(-1);
@@ -74,13 +57,6 @@ Bytes decode_base64(std::string_view text, const std::string& path) {
         }
     }
     return out;
-}
-
-bool is_data_uri(const std::string& uri) {
-    constexpr std::string_view scheme = "data:";
-    return uri.size() >= scheme.size() &&
-           std::equal(scheme.begin(), scheme.end(), uri.begin(),
-                      [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b + 32 : b); });
 }
 
 Bytes read_data_uri(const std::string& uri, const std::string& path) {
@@ -121,6 +97,30 @@ std::string resolve_inside(const std::string& scene_path, const std::string& uri
 }
 
 }  // namespace
+
+std::string percent_decode(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool escape = text[i] == '%' && i + 2 < text.size();
+        const int high = escape ? hex_digit(text[i + 1]) : -1;
+        const int low = escape ? hex_digit(text[i + 2]) : -1;
+        if (high >= 0 && low >= 0) {
+            out.push_back(static_cast<char>(high * 16 + low));
+            i += 2;
+        } else {
+            out.push_back(text[i]);
+        }
+    }
+    return out;
+}
+
+bool is_data_uri(const std::string& uri) {
+    constexpr std::string_view scheme = "data:";
+    return uri.size() >= scheme.size() &&
+           std::equal(scheme.begin(), scheme.end(), uri.begin(),
+                      [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b + 32 : b); });
+}
 
 std::string printable(std::string_view text) {
     std::string out;

@@ -28,6 +28,9 @@ std::string printable(std::string_view text);
 // A regular file of at most max_file_bytes.
 Bytes read_file(const std::string& path);
 
+bool is_data_uri(const std::string& uri);
+std::string percent_decode(std::string_view text);
+
 // What a URI of the scene at `scene_path` names: a base64 data URI or a file below the scene's
 // folder. Absolute paths, other schemes, "..", directories and links out of the folder are refused.
 Bytes read_uri(const std::string& scene_path, const std::string& uri);
