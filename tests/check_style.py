@@ -2,12 +2,15 @@
 """House rules that a program can see; fails on a violation. Usage: tests/check_style.py [ROOT]
 
 Files of at most 400 lines, functions of at most 60 in renderer/ and app/, no inheritance and no
-printing in renderer/, no promises for later in comments.
+printing in renderer/, no promises for later in comments, no small absolute numbers in geometry
+(absolute_literals.py).
 """
 
 import re
 import sys
 from pathlib import Path
+
+from absolute_literals import absolute_literals, stale_reasons
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60  # between its braces
@@ -74,6 +77,7 @@ def check_file(root, path):
             yield f"{path}:{line}: a function of {length} lines (at most {MAX_FUNCTION_LINES})"
     if path.startswith("renderer/"):
         yield from check_renderer(path, code)
+        yield from absolute_literals(path, code)
 
 
 def violations(root):
@@ -83,7 +87,7 @@ def violations(root):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix in SOURCES and file.is_file():
                 found += check_file(root, file.relative_to(root).as_posix())
-    return found
+    return found + list(stale_reasons(root))
 
 
 def main():

@@ -136,6 +136,14 @@ class StyleRules(unittest.TestCase):
         for line in ['log("std::cout");', "std::snprintf(b, 1, c);", "// std::cout"]:
             self.assertEqual(0, self.count(line), line)
 
+    def test_small_absolute_numbers_are_found(self):
+        for line in ["float offset = 1e-4f;", "t > 0.001f", "d < .0005", "const float epsilon = x;",
+                     "if (c > 0.999f)", "ray.tnear = 1e-3;", "x * 1.0001f"]:
+            self.assertEqual(1, self.count(line, "renderer/scene/x.cpp"), line)
+            self.assertEqual(0, self.count(line, "renderer/image/x.cpp"), line)
+        for line in ["0x1p-24f * x", "// 1e-4", 'f("1e-4");', "0.5f * x", "x = 1.0f", "a1e_4 = 10;"]:
+            self.assertEqual(0, self.count(line, "renderer/scene/x.cpp"), line)
+
     def test_promises_are_found(self):
         self.assertEqual(1, self.count("// TO" "DO: later\n"))
         self.assertEqual(1, self.count("# FIX" "ME\n", "tests/x.py"))
