@@ -1,11 +1,12 @@
 // midway render: from a scene to image files.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <ctime>
 
 #include "checkpoint.h"
 #include "commands.h"
+#include "error_watch.h"
+#include "interrupt.h"
 #include "outputs.h"
 #include "progress.h"
 #include "render/coverage.h"
@@ -16,14 +17,12 @@
 namespace midway {
 namespace {
 
-// Set by Ctrl-C; the render then ends at the last whole pass.
-volatile std::sig_atomic_t interrupted = 0;
-
 struct RenderCommand {
     SceneOptions scene;
     RenderSettings settings;
     RendererOptions renderer;
     OutputOptions outputs;
+    ErrorOptions errors;
     std::optional<std::uint64_t> spp;
     std::optional<double> seconds;
     RenderWords words;
@@ -95,7 +94,40 @@ void warn_of_gaps(const ProgressiveRenderer& r, const PreparedScene& p, Techniqu
         print_warnings({fmt::format("{} does not cover: {}", to_string(technique), what)});
 }
 
-RunFigures render_all(const RenderCommand& c, const PreparedScene& p, ProgressiveRenderer& r) {
+// Renders to the first limit that is met, an error among them; returns the seconds of rendering.
+double render_watched(ProgressiveRenderer& r, const WaveLimits& all, ErrorWatch& watch,
+                      const std::function<void(const WaveState&)>& progress) {
+    double seconds = 0;
+    const std::uint64_t first = r.passes();
+    watch.take(r, seconds);
+    while (!watch.reached() && !interrupted()) {
+        WaveLimits limits = all;
+        if (all.passes) *limits.passes -= r.passes() - first;
+        if (limits.passes && *limits.passes == 0) break;
+        if (all.seconds && r.passes() > first && seconds >= *all.seconds) break;
+        if (all.seconds) *limits.seconds -= seconds;
+        const double before = double(r.passes() - first);
+        if (watch.wanted()) {
+            const std::uint64_t next = watch.next(r) - r.passes();
+            limits.passes = std::min(limits.passes.value_or(next), next);
+        }
+        const double so_far = seconds;
+        seconds += render_in_waves(r, limits, interrupted, [&](WaveState w) {
+            w.passes += before;
+            if (watch.wanted()) {
+                w.done = watch.share();
+                if (all.passes) w.done = std::max(w.done, w.passes / double(*all.passes));
+                if (all.seconds) w.done = std::max(w.done, so_far / *all.seconds);
+            }
+            progress(w);
+        });
+        watch.take(r, seconds);
+    }
+    return seconds;
+}
+
+RunFigures render_all(const RenderCommand& c, const PreparedScene& p, ProgressiveRenderer& r,
+                      ErrorWatch& watch) {
     Progress progress(c.quiet);
     Checkpoint checkpoint(c.checkpoint, p, c.settings);
     checkpoint.resume(r);
@@ -103,20 +135,18 @@ RunFigures render_all(const RenderCommand& c, const PreparedScene& p, Progressiv
     WaveLimits limits;
     limits.passes = c.spp;
     limits.seconds = c.seconds;
-    if (!c.spp && !c.seconds) limits.passes = 128;
+    if (!c.spp && !c.seconds && !c.errors.target) limits.passes = 128;
     if (limits.passes) *limits.passes -= std::min(*limits.passes, r.passes());
-    const double seconds = render_in_waves(
-        r, limits, [] { return interrupted != 0; },
-        [&](const WaveState& w) {
-            const RayCounts n = r.statistics().rays;
-            progress.update({w.done, w.passes, n.closest + n.shadow});
-            if (w.whole) checkpoint.write_if_due(r);
-        });
+    const double seconds = render_watched(r, limits, watch, [&](const WaveState& w) {
+        const RayCounts n = r.statistics().rays;
+        progress.update({w.done, w.passes, n.closest + n.shadow});
+        if (w.whole) checkpoint.write_if_due(r);
+    });
     checkpoint.write(r);
     RunFigures figures;
     figures.seconds_render = seconds;
     figures.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
-    figures.interrupted = interrupted != 0;
+    figures.interrupted = interrupted();
     return figures;
 }
 
@@ -125,13 +155,15 @@ int run(RenderCommand& c) {
         usage("-o: name at least one output (.exr, .png or .film)");
     finish_command(c);
     check_outputs(c.outputs);
+    check_error_options(c.errors, c.checkpoint.resume);
+    ErrorWatch watch(c.errors, c.settings);
     const PreparedScene p = prepare_scene(c.scene);
     if (!c.quiet) print_warnings(p.warnings);
     if (!c.debug_pixel.empty()) return debug(c, p);
     ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
     if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
-    std::signal(SIGINT, [](int) { interrupted = 1; });
-    const RunFigures figures = render_all(c, p, r);
+    catch_interrupt();
+    const RunFigures figures = render_all(c, p, r, watch);
     write_outputs(c.outputs, p, c.settings, r, figures);
 
     const RenderStatistics s = r.statistics();
@@ -186,6 +218,7 @@ Command add_render_command(CLI::App& app) {
         ->delimiter(',');
     add_settings_options(sub, c->settings, c->words);
     add_run_options(sub, *c);
+    add_error_options(sub, c->errors);
     sub.add_flag("--quiet", c->quiet, "No progress, no warnings");
     return [c] { return run(*c); };
 }

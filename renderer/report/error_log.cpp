@@ -59,22 +59,6 @@ double bias_deviate(double bias, const Reference& r, const SquaredError& x) {
     return normal_deviate_of_student(bias * std::abs(mean) / std::sqrt(square), freedom);
 }
 
-// Median of each channel over the pixels around.
-dvec3 local_median(const Image& image, int x, int y) {
-    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, image.width - 1);
-    const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, image.height - 1);
-    dvec3 result(0);
-    for (int c = 0; c < 3; ++c) {
-        std::array<float, 9> v{};
-        size_t n = 0;
-        for (int j = y0; j <= y1; ++j)
-            for (int i = x0; i <= x1; ++i) v[n++] = image.at(i, j)[c];
-        std::nth_element(v.begin(), v.begin() + n / 2, v.begin() + n);
-        result[c] = v[n / 2];
-    }
-    return result;
-}
-
 // The shortest text that reads back as the same bits; nothing where the number is unknown.
 std::string number_text(double v) { return std::isnan(v) ? "" : fmt::format("{}", v); }
 
@@ -108,16 +92,17 @@ double estimate_relmse(const Film& film, const PassCounts& n) {
     double sum = 0;
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
-            const dvec3 d = half_mean(film, 0, n.a, x, y) - half_mean(film, 1, n.b, x, y);
-            const dvec3 around = local_median(image, x, y);
+            const dvec3 a = half_mean(film, 0, n.a, x, y), b = half_mean(film, 1, n.b, x, y);
             for (int c = 0; c < 3; ++c)
-                if (d[c] != 0) sum += share * sqr(d[c]) / (sqr(around[c]) + epsilon);
+                if (a[c] != b[c])
+                    sum += share * sqr(a[c] - b[c]) / (std::max(0.0, a[c] * b[c]) + epsilon);
         }
     return sum / (3 * double(image.width) * image.height);
 }
 
 std::uint64_t next_measured_pass(std::uint64_t passes) {
-    return passes + std::max<std::uint64_t>(1, std::bit_floor(passes) / 4);
+    const std::uint64_t step = std::max<std::uint64_t>(1, std::bit_floor(passes) / 4);
+    return (passes / step + 1) * step;
 }
 
 std::string error_csv_header() {
