@@ -48,16 +48,17 @@ void add_batch(const Film& f, const Blocks& blocks, double passes, std::vector<F
                Measured& m) {
     const std::vector<FixedRgb> now = block_sums(f, blocks);
     const std::vector<double> pixels = block_pixels(f, blocks);
-    double all = 0;
+    std::vector<double> told(1 + now.size(), 0.0);
     for (size_t i = 0; i < now.size(); ++i) {
         FixedRgb d;
         for (int k = 0; k < 3; ++k) d[k] = now[i][k] - before[i][k];
         const double sum = luminance_of(d, f.unit_exponent());
-        all += sum;
-        m.blocks[i].add(sum / (pixels[i] * passes));
+        told[0] += sum / (double(f.width()) * f.height() * passes);
+        told[1 + i] = sum / (pixels[i] * passes);
+        m.blocks[i].add(told[1 + i]);
     }
-    m.means.push_back(all / (double(f.width()) * f.height() * passes));
-    m.image.add(m.means.back());
+    m.image.add(told[0]);
+    m.told.push_back(std::move(told));
     before = now;
 }
 
@@ -168,15 +169,6 @@ double welch_z(const RunningMean& a, const RunningMean& b) {
     return std::copysign((8 * n + 1) / (8 * n + 3) * std::sqrt(n * std::log1p(t2 / n)), difference);
 }
 
-double paired_z(const Measured& a, const Measured& b) {
-    RunningMean differences, nothing;
-    for (size_t i = 0; i < std::min(a.means.size(), b.means.size()); ++i) {
-        differences.add(a.means[i] - b.means[i]);
-        nothing.add(0);
-    }
-    return welch_z(differences, nothing);
-}
-
 Difference difference(const Measured& a, const Measured& b) {
     Difference d;
     d.image_z = welch_z(a.image, b.image);
@@ -193,6 +185,23 @@ Difference difference(const Measured& a, const Measured& b) {
         d.relative_error =
             std::hypot(a.image.estimate().standard_error, b.image.estimate().standard_error) /
             std::abs(m);
+    }
+    return d;
+}
+
+Difference paired_difference(const Measured& a, const Measured& b) {
+    const size_t columns = 1 + a.blocks.size();
+    std::vector<RunningMean> differences(columns), nothing(columns);
+    for (size_t row = 0; row < std::min(a.told.size(), b.told.size()); ++row)
+        for (size_t i = 0; i < columns; ++i) {
+            differences[i].add(a.told[row][i] - b.told[row][i]);
+            nothing[i].add(0);
+        }
+    Difference d = difference({differences[0], {differences.begin() + 1, differences.end()}, {}},
+                              {nothing[0], {nothing.begin() + 1, nothing.end()}, {}});
+    if (b.image.mean != 0) {
+        d.relative = differences[0].mean / b.image.mean;
+        d.relative_error = differences[0].estimate().standard_error / std::abs(b.image.mean);
     }
     return d;
 }

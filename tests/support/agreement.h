@@ -17,7 +17,8 @@ namespace midway::test {
 struct Measured {
     RunningMean image;
     std::vector<RunningMean> blocks;
-    std::vector<double> means;  // of the image, in the order that `image` took them
+    // What the image and then the blocks were told, in order: one row per batch or seed.
+    std::vector<std::vector<double>> told;
 };
 
 struct Effort {
@@ -59,10 +60,6 @@ bool families_cover(const AgreementScene& scene, const Families& families);
 // into z by the formula of Wallace (1959), since the standard errors come from few batches.
 double welch_z(const RunningMean& a, const RunningMean& b);
 
-// The same for two means from the same seeds (exponents that share paths), whose errors have much
-// in common: the score of their differences, seed by seed.
-double paired_z(const Measured& a, const Measured& b);
-
 struct Difference {
     double image_z = 0;
     double worst_block_z = 0;
@@ -71,6 +68,9 @@ struct Difference {
     double relative_error = 0;  // standard error of `relative`
 };
 Difference difference(const Measured& a, const Measured& b);
+// The same for two images from the same seeds (exponents that share paths), whose errors have much
+// in common: scores and errors are those of the differences, seed by seed.
+Difference paired_difference(const Measured& a, const Measured& b);
 
 // The means of two images agree within 3.5 standard errors, and every block within a limit that all
 // `comparisons` of a test case share (Sidak, 1e-4 in all).

@@ -16,8 +16,9 @@ Families families_by_initials(const std::string& initials) {
 }
 
 std::vector<AssetPlan> asset_plans() {
-    const std::vector<double> all{0.5, 1, 2, 8}, some{1, 2}, power{2};
+    const std::vector<double> naive{0}, all{0.5, 1, 2, 8}, some{1, 2}, three{1, 2, 8}, power{2};
     const double tenth = 0.001, third = 0.003, one = 0.01;  // of a percent, and one percent
+    const std::string sky = std::string(MIDWAY_SOURCE_DIR) + "/assets/terrace_sky.hdr";
     return {
         {"cornell",
          "",
@@ -26,7 +27,8 @@ std::vector<AssetPlan> asset_plans() {
           row("EC", some, tenth, 8192), row("NL", some, tenth, 1024), row("NC", some, tenth, 1024),
           row("LC", some, tenth, 1024), row("ENL", some, tenth, 1024),
           row("ENC", some, tenth, 1024), row("ELC", some, tenth, 1024),
-          row("NLC", some, tenth, 1024)}},
+          row("NLC", some, tenth, 1024), row("EN", naive, tenth, 4096),
+          row("ENL", naive, tenth, 4096)}},
         {"plates",
          "",
          {row("ENLC", some, tenth, 32768), row("EN", some, one, 2048), row("L", power, one, 8192),
@@ -36,27 +38,27 @@ std::vector<AssetPlan> asset_plans() {
         {"idol",
          "",
          {row("ENLC", some, tenth, 16384), row("EN", some, one, 2048),
-          row("ENL", some, third, 2048), row("ENC", some, one, 2048)}},
+          row("ENL", some, third, 4096), row("ENC", some, one, 4096)}},
         {"ajar",
          "",
          {row("ENLC", some, tenth, 4096), row("EN", some, tenth, 4096),
           row("ENL", some, third, 1024), row("ENC", some, third, 1024),
-          row("EL", some, third, 1024), row("ELC", some, third, 1024)}},
+          row("EL", some, third, 1024), row("ELC", some, third, 2048)}},
         {"ring",
          "",
-         {row("ENLC", some, tenth, 4096), row("EN", some, one, 1024), row("L", power, one, 1024),
-          row("ENL", some, third, 1024), row("ENC", some, one, 1024), row("EL", some, third, 2048),
+         {row("ENLC", some, tenth, 16384), row("EN", some, one, 1024), row("L", power, one, 1024),
+          row("ENL", some, third, 1024), row("ENC", some, one, 2048), row("EL", some, third, 2048),
           row("ELC", some, third, 1024)}},
         {"lanterns",
          "",
-         {row("ENLC", some, tenth, 4096), row("EN", some, tenth, 4096),
-          row("L", power, tenth, 8192), row("ENL", some, third, 1024),
-          row("ENC", some, third, 2048), row("ELC", some, third, 2048)}},
+         {row("ENLC", three, tenth, 8192), row("EN", some, tenth, 8192),
+          row("L", power, tenth, 16384), row("ENL", some, third, 2048),
+          row("ENC", some, third, 4096), row("ELC", some, third, 4096)}},
         {"terrace",
-         std::string(MIDWAY_SOURCE_DIR) + "/assets/terrace_sky.hdr",
-         {row("ENLC", all, tenth, 4096), row("EN", all, tenth, 4096), row("L", power, tenth, 32768),
-          row("N", power, third, 1024), row("ENL", some, third, 1024),
-          row("ENC", some, third, 1024)}},
+         sky,
+         {row("ENLC", some, tenth, 8192), row("EN", some, tenth, 16384),
+          row("L", power, tenth, 32768), row("N", power, third, 2048),
+          row("ENL", some, third, 1024), row("ENC", some, third, 1024)}},
     };
 }
 
