@@ -69,15 +69,19 @@ void judge_weights(const AuditResult& r, std::vector<AuditCheck>& checks) {
                            tail <= own_tail_limit, own.place(), where(own.place())));
     for (const bool power : {true, false}) {
         const WeightAudit* worst = nullptr;
-        for (const WeightAudit& w : r.weights)
-            if ((w.exponent == 2) == power &&
-                (!worst || !(std::abs(w.bias) <= std::abs(worst->bias))))
-                worst = &w;
+        double largest = -1;
+        for (const WeightAudit& w : r.weights) {
+            // What is not a number is worst of all.
+            const double bias = std::isnan(w.bias) ? INFINITY : std::abs(w.bias);
+            if ((w.exponent == 2) != power || bias <= largest) continue;
+            worst = &w;
+            largest = bias;
+        }
         const double limit = power ? bias_limit : other_bias_limit;
         checks.push_back(check(
             fmt::format("bias that own pdfs imply, {}", power ? "exponent 2" : "other exponents"),
             fmt::format("{:+.1e} (exponent {:g})", worst->bias, worst->exponent),
-            fmt::format("<= {:.0e}", limit), std::abs(worst->bias) <= limit, worst->own_sum.place(),
+            fmt::format("<= {:.0e}", limit), largest <= limit, worst->own_sum.place(),
             where(worst->own_sum.place())));
     }
 }
