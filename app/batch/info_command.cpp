@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "render/coverage.h"
+#include "session_options.h"
 
 namespace midway {
 namespace {
@@ -102,7 +103,8 @@ Command add_info_command(CLI::App& app) {
     CLI::App& sub = *app.add_subcommand("info", "What is in a scene, and what it needs");
     add_scene_options(sub, *options);
     sub.add_flag("--json", *json, "Print JSON");
-    return [options, json] {
+    return [options, json, &sub] {
+        take_session(sub, *options, *json);
         const PreparedScene p = prepare_scene(*options);
         const Json j = describe_scene(p);
         if (*json) {

@@ -13,11 +13,13 @@
 #include "render/debug_sample.h"
 #include "render/waves.h"
 #include "render_options.h"
+#include "session_options.h"
 
 namespace midway {
 namespace {
 
 struct RenderCommand {
+    const CLI::App* command = nullptr;
     SceneOptions scene;
     RenderSettings settings;
     RendererOptions renderer;
@@ -50,11 +52,18 @@ void choose_shard(RenderCommand& c) {
     c.spp = end - first;
 }
 
-// Turns the words of the command line into settings.
+// Turns the words of the command line, and the session's where it names one, into settings.
 void finish_command(RenderCommand& c) {
     choose_technique(c.technique, c.settings);
     if (!c.exponents.empty()) c.settings.exponents = c.exponents;
     finish_settings(c.words, c.settings);
+    if (const auto session = take_session(*c.command, c.scene, c.quiet)) {
+        take_settings(*c.command, session->settings, c.settings);
+        if (!c.spp && !c.seconds) {
+            c.spp = session->limits.spp;
+            c.seconds = session->limits.seconds;
+        }
+    }
     choose_shard(c);
     if (c.checkpoint.resume && (c.outputs.strategies || c.outputs.stats))
         usage("--resume: strategy layers and statistics are not in a checkpoint");
@@ -210,6 +219,7 @@ void add_run_options(CLI::App& sub, RenderCommand& c) {
 Command add_render_command(CLI::App& app) {
     auto c = std::make_shared<RenderCommand>();
     CLI::App& sub = *app.add_subcommand("render", "Render a scene to image files");
+    c->command = &sub;
     add_scene_options(sub, c->scene);
     add_image_options(sub, *c);
     sub.add_option("--technique", c->technique, "path, light, bdpt or bdpt:EXPONENT")

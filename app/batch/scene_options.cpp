@@ -5,7 +5,7 @@
 namespace midway {
 
 void add_scene_options(CLI::App& c, SceneOptions& o) {
-    c.add_option("scene", o.path, "Scene: .gltf or .glb")->required();
+    c.add_option("scene", o.path, "Scene: .gltf, .glb or a session .midway")->required();
     c.add_option("--sky", o.sky, "Sky: an .hdr or .exr map, or a colour R,G,B");
     c.add_option("--sky-rotation", o.sky_rotation_degrees, "Rotation of the sky about +y, degrees");
     c.add_option("--sky-strength", o.sky_strength, "Factor on the sky");
