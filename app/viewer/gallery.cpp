@@ -61,7 +61,8 @@ std::vector<GalleryEntry> read_gallery(const fs::path& assets) {
     std::vector<GalleryEntry> entries;
     try {
         std::ifstream file(assets / "gallery.json");
-        for (const auto& scene : nlohmann::json::parse(file).at("scenes")) {
+        const nlohmann::json list = nlohmann::json::parse(file);
+        for (const auto& scene : list.at("scenes")) {
             const std::string name = scene.at("file"), picture = scene.at("thumbnail");
             if (!is_plain(name) || !is_plain(picture)) continue;
             entries.push_back(

@@ -292,7 +292,9 @@ void begin_sheet(const char* name, bool& open) {
     ImGui::SetNextWindowPos({0, 0});
     ImGui::SetNextWindowSize(size);
     ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::rgb(0, 0.55f));
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
     ImGui::Begin("##dim", nullptr, still);
+    ImGui::PopStyleVar();
     ImGui::PopStyleColor();
     if (ImGui::InvisibleButton("beside", ImGui::GetContentRegionAvail())) open = false;
     ImGui::End();

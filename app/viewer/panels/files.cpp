@@ -15,6 +15,10 @@ namespace {
 
 void draw_open(App& app) {
     FileFields& f = app.ui.panel.files;
+    if (f.focus_open) {
+        ImGui::SetKeyboardFocusHere();
+        f.focus_open = false;
+    }
     ImGui::SetNextItemWidth(-ui::em(4.2f));
     const bool entered =
         ImGui::InputTextWithHint("##open", "path of .gltf, .glb, .midway", &f.open_path,
@@ -27,10 +31,6 @@ void draw_open(App& app) {
          entered) &&
         !f.open_path.empty())
         ask(app, ActionKind::open, f.open_path);
-    if (app.ui.panel.files.focus_open) {
-        ImGui::SetKeyboardFocusHere(-2);
-        app.ui.panel.files.focus_open = false;
-    }
     const float third = ui::share_of_width(3);
     if (ui::wide_button("Gallery", "Scenes that come with Midway, and what to try with each. [G]",
                         third))

@@ -51,7 +51,7 @@ bool card(size_t index, const GalleryEntry& entry) {
 }  // namespace
 
 Change draw_gallery(App& app) {
-    if (!app.ui.gallery) return {};
+    if (!app.ui.gallery || app.ui.keys) return {};
     PanelState& state = app.ui.panel;
     if (!state.gallery) state.gallery = read_gallery(assets_folder());
     ui::begin_sheet("##gallery", app.ui.gallery);
