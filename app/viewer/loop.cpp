@@ -16,6 +16,7 @@ namespace {
 using Clock = Engine::Clock;
 
 constexpr double animation_seconds = 1.0 / 60;
+constexpr double script_seconds = 1.0 / 20;  // between looks at whether a wait is over
 constexpr auto resize_rest = std::chrono::milliseconds(200);
 constexpr size_t exposure_pixels = 20000;  // enough for an average, few enough for a frame
 
@@ -23,14 +24,17 @@ double seconds_since(Clock::time_point t) {
     return std::chrono::duration<double>(Clock::now() - t).count();
 }
 
+// ImGui's clock, which stands still between frames.
+double gui_now(const Loop& l) { return ImGui::GetTime() + seconds_since(l.last_frame); }
+
 // How long the window may sleep; below zero: until something happens.
 double rest(const Loop& l) {
     if (l.frames_due > 0) return 0;
     const bool refitting = l.engine.refit && l.app.document.prepared;
-    if (l.app.camera.animating || l.frames_left >= 0 || playing(l.script) || refitting)
-        return animation_seconds;
-    if (l.app.ui.notice_until > ImGui::GetTime())
-        return std::min(1.0, l.app.ui.notice_until - ImGui::GetTime() + 0.01);
+    if (l.app.camera.animating || l.frames_left >= 0 || refitting)
+        return std::max(0.0, animation_seconds - seconds_since(l.last_frame));
+    if (playing(l.script)) return wants_frame(l.script, l.app, l.engine) ? 0 : script_seconds;
+    if (l.app.ui.notice_until > 0) return std::clamp(l.app.ui.notice_until - gui_now(l), 0.0, 1.0);
     return l.app.document.files.empty() ? -1 : 1;  // to look at the files' stamp
 }
 
@@ -147,17 +151,18 @@ bool last_frame(Loop& l) {
 }
 
 void frame(Loop& l, Change change) {
-    const auto began = Clock::now();
+    const auto began = l.last_frame = Clock::now();
     l.host.begin_frame();
     if (!l.script.lines.empty()) give_input(l.script);
     ImGui::NewFrame();
     l.app.camera.animating = false;
     for (const Panel& panel : panels()) change |= panel.draw(l.app);
     draw_pixel_values(l.app, l.shown);
-    const ScriptStep step = play(l.script, l.app, l.engine, l.host);
-    change |= step.change;
     change |= fit_image(l);
     apply(l.app, l.engine, change, began);
+    const ScriptStep step = play(l.script, l.app, l.engine, l.host);
+    apply(l.app, l.engine, step.change, began);
+    change |= step.change;
     act(l);
     if (change.any()) l.frames_due = std::max(l.frames_due, 2);
 
@@ -189,11 +194,10 @@ void run(Loop& l) {
         watch_size(l);
         const News news = collect(l.app, l.engine);
         if (l.host.had_event()) l.frames_due = 3;
-        const bool notice_over =
-            l.app.ui.notice_until > 0 && l.app.ui.notice_until < ImGui::GetTime();
+        const bool notice_over = l.app.ui.notice_until > 0 && l.app.ui.notice_until < gui_now(l);
         if (notice_over) l.app.ui.notice_until = 0;
         if (news.visible || news.change.any() || notice_over || l.app.camera.animating ||
-            l.frames_left >= 0 || playing(l.script))
+            l.frames_left >= 0 || wants_frame(l.script, l.app, l.engine))
             l.frames_due = std::max(l.frames_due, 1);
         if (l.host.closing()) l.quit = true;
         // A look at the files needs no frame; neither does resting until the window's size does.

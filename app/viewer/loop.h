@@ -38,6 +38,7 @@ struct Loop {
     double shown_exponent = -1;
 
     Engine::Clock::time_point start = Engine::Clock::now();
+    Engine::Clock::time_point last_frame = start;  // when it began
     Mark mark;
     ivec2 size{0};         // of the framebuffer
     int frames_due = 3;    // ImGui answers an event within three frames

@@ -79,6 +79,7 @@ bool has_come(const ScriptPlayer& p, const std::vector<std::string>& w, const Ap
     };
     if (what == "seconds") return seconds_waited(p) >= argument();
     if (what == "frames") return p.waiting_frames >= argument();
+    if (what == "reload") return app.document.prepared != p.scene_then;
     if (what == "loaded") return p.waiting_frames >= 2 && loaded(app, engine);
     if (what == "saved") return engine.save_later.empty() && !engine.tasks.busy();
     // What was just asked for reaches the renderer at the end of the frame.
@@ -101,15 +102,19 @@ bool wait(ScriptPlayer& p, const std::vector<std::string>& w, const App& app,
     if (!p.waiting_since) {
         p.waiting_since = ScriptPlayer::Clock::now();
         p.waiting_frames = 0;
+        p.scene_then = app.document.prepared;
     }
     const bool over = has_come(p, w, app, engine);
     ++p.waiting_frames;
-    if (over)
+    if (over) {
         p.waiting_since.reset();
-    else if (seconds_waited(p) > p.timeout + (w[1] == "seconds" ? number(w[2]) : 0))
+        p.scene_then.reset();
+        return true;
+    }
+    if (seconds_waited(p) > p.timeout + (w[1] == "seconds" ? number(w[2]) : 0))
         throw std::runtime_error("waited too long for " + w[1] +
                                  (app.document.error.empty() ? "" : ": " + app.document.error));
-    return over;
+    return false;
 }
 
 // Turns or moves the camera as a hand would, in degrees.
@@ -214,6 +219,18 @@ std::vector<ScriptLine> read_script(const std::string& path) {
     if (!file || !(text << file.rdbuf()))
         throw std::runtime_error("cannot read script (" + one_line(path) + "); check the name");
     return parse_script(text.str(), path);
+}
+
+bool wants_frame(const ScriptPlayer& p, const App& app, const Engine& engine) {
+    if (!playing(p)) return false;
+    if (!p.input.empty() || !p.waiting_since || p.waiting_frames < 2) return true;
+    const std::vector<std::string>& words = p.lines[p.next].words;
+    if (words[1] == "frames" || seconds_waited(p) > p.timeout) return true;
+    try {
+        return has_come(p, words, app, engine);
+    } catch (const std::exception&) {
+        return true;  // play() says which line it is
+    }
 }
 
 ScriptStep play(ScriptPlayer& p, App& app, Engine& engine, const Host& host) {

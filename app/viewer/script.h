@@ -5,7 +5,8 @@
 //   key NAME             Tab, F1, a, ctrl+s ...            type TEXT
 //   move X Y             click X Y [right|double]          drag X0 Y0 X1 Y1 [right|middle]
 //   scroll X Y STEPS     drop FILE                         resize WIDTHxHEIGHT
-//   wait loaded | image | spp N | idle | saved | seconds X | frames N
+//   wait loaded | image | spp N | idle | saved | reload | seconds X
+//        | frames N
 //   screenshot F.png     save F.exr|F.png                  save-session F.midway
 //   copy F.txt           report F.json                     mark        reload
 //   timeout SECONDS      quit
@@ -54,11 +55,15 @@ struct ScriptPlayer {
     double timeout = 120;
     std::optional<Clock::time_point> waiting_since;
     int waiting_frames = 0;
+    std::shared_ptr<const PreparedScene> scene_then;  // when the wait began
     std::deque<InputStep> input;
     vec2 mouse{0};
 };
 
 inline bool playing(const ScriptPlayer& p) { return p.next < p.lines.size() || !p.input.empty(); }
+
+// Whether the script has something to do in a frame now; while it waits, no frame is drawn for it.
+bool wants_frame(const ScriptPlayer& player, const App& app, const Engine& engine);
 
 // Sets ImGui's input for the frame that begins; between the host's begin_frame() and NewFrame().
 void give_input(ScriptPlayer& player);

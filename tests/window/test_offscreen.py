@@ -1,0 +1,205 @@
+"""The window drawn in memory, driven by scripts."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import tiny_scene
+import window_test
+from exr_file import ExrFile
+from window_test import WindowTest, part, read_png, wait_for
+
+ERROR_LINE = re.compile(r"^midway-view: error: \S.* \(.+\); \S.*$")
+
+
+class Pictures(WindowTest):
+    def test_screenshot_holds_image_and_panels(self):
+        self.run_view("--offscreen", "--window", "1000x600", "--frames", 3, "--screenshot",
+                      "shot.png", self.scene)
+        self.keep("shot.png")
+        picture = read_png(self.folder / "shot.png")
+        self.assertEqual((1000, 600), picture[:2])
+        left, middle = part(picture, 0, 0, 200, 500), part(picture, 400, 100, 600, 500)
+        self.assertGreater(len(set(left)), 20, "the left column is empty")
+        self.assertTrue(any(max(p) > 180 for p in left), "no text in the left column")
+        self.assertGreater(len(set(middle)), 50, "the image is empty")
+        self.assertGreater(sum(map(sum, middle)) / len(middle), 15, "the image is black")
+
+    def test_osmesa_draws_the_same_window(self):
+        done = self.play("wait frames 3", "--gl", "osmesa", self.scene, status=None)
+        if "libOSMesa" in done.stderr:
+            self.skipTest("libOSMesa is missing")
+        script = "wait loaded\nset pause on\nset size 16x12\nwait idle\nset panels off\n" \
+                 "wait frames 5\nscreenshot {}"
+        self.play(script.format("egl.png"), self.scene)
+        self.play(script.format("osmesa.png"), "--gl", "osmesa", self.scene)
+        egl, osmesa = (part(read_png(self.folder / n), 0, 0, 400, 300)
+                       for n in ("egl.png", "osmesa.png"))
+        self.assertLessEqual(max(abs(a - b) for p, q in zip(egl, osmesa) for a, b in zip(p, q)), 1)
+
+    def test_saved_png_is_what_is_seen(self):
+        """Shader and PNG writer differ by less than one of 255 steps, in every curve and channel."""
+        looks = {"srgb": "", "bright": "set exposure 2.3", "filmic": "set curve filmic",
+                 "agx": "set curve agx\nset exposure 1", "stops": "set curve srgb\n"
+                 "set exposure 0\nset false-colour on", "error": "set channel error",
+                 "samples": "set channel samples", "albedo": "set channel albedo",
+                 "normal": "set channel normal", "depth": "set channel depth",
+                 "object": "set channel object"}
+        script = f"open {self.scene}\nset size 64x48\nset spp 4\nwait idle\nset panels off\n" \
+                 "set zoom 1\n"
+        for name, look in looks.items():
+            script += f"{look}\nwait seconds 0.3\nwait idle\nscreenshot seen-{name}.png\n" \
+                      f"save saved-{name}.png\nwait saved\n"
+        self.play(script)
+        pictures = set()
+        for name in looks:
+            with self.subTest(name):
+                seen = read_png(self.folder / f"seen-{name}.png")
+                saved = read_png(self.folder / f"saved-{name}.png")
+                if name != "samples":  # one value for all pixels
+                    self.assertEqual((64, 48), saved[:2])
+                    seen_pixels = part(seen, 168, 126, 232, 174)
+                    saved_pixels = part(saved, 0, 0, 64, 48)
+                    pictures.add(tuple(saved_pixels))
+                else:
+                    seen_pixels, saved_pixels = part(seen, 200, 150, 201, 151), part(saved, 0, 0, 1, 1)
+                worst = max(abs(a - b) for p, q in zip(seen_pixels, saved_pixels)
+                            for a, b in zip(p, q))
+                self.assertLessEqual(worst, 1)
+        self.assertEqual(len(looks) - 1, len(pictures), "two looks are the same picture")
+
+
+class Files(WindowTest):
+    def test_saved_exr_is_that_of_the_copied_command_line(self):
+        for name, words in {
+                "as it comes": "",
+                "technique": "set technique path\nset exponent 1\nset max-bounces 3\nset seed 7",
+                "camera": "camera orbit 23.7 -11\ncamera dolly 0.83\nset fov 41.3",
+                "lens": "set aperture 0.031\nset focus 4.7",
+                "light": "set lamp-strength 0.3\nset sky 0.1,0.2,0.37\nset sky-strength 1.7",
+                "same paths": "set same-paths on\nset exponent 1.37",
+                "crop": "set crop 5,7,31,29",
+                "families": "set families emitter,connect\nset filter box\nset sampler independent",
+        }.items():
+            with self.subTest(name):
+                self.play(f"open {self.scene}\nset size 48x36\nwait loaded\n{words}\nset spp 3\n"
+                          "wait idle\ncopy line.txt\nsave window.exr\nwait saved")
+                batch = self.run_command_line(self.folder / "line.txt")
+                self.assertEqual(batch.read_bytes(), (self.folder / "window.exr").read_bytes())
+                batch.unlink()
+
+    def test_session_brings_back_the_same_bits(self):
+        self.play(f"open {self.scene}\nset size 40x30\nset spp 2\nwait loaded\n"
+                  "set technique light\ncamera look 3 1\nset lamp-strength 2\nset exposure -1.5\n"
+                  "set curve filmic\nwait idle\nsave a.exr\nsave-session s.midway\nwait saved\n"
+                  "set exposure 0\nset curve srgb\nset technique bdpt\nopen s.midway\nwait idle\n"
+                  "save b.exr\nsave-session t.midway\nwait saved")
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+        self.assertEqual((self.folder / "s.midway").read_text(),
+                         (self.folder / "t.midway").read_text())
+
+    def test_dropped_sky_lights_the_scene(self):
+        sky = Path(__file__).resolve().parents[2] / "assets" / "terrace_sky.hdr"
+        self.play(f"open {self.scene}\nset size 24x18\nset spp 2\nwait idle\nsave dark.exr\n"
+                  f"wait saved\ndrop {sky}\nwait idle\nsave lit.exr\nwait saved\nreport report.json")
+        self.assertEqual("", self.report()["error"])
+        dark, lit = (sum(map(sum, ExrFile(self.folder / n).pixels()["R"]))
+                     for n in ("dark.exr", "lit.exr"))
+        self.assertGreater(lit, dark * 1.01)
+
+    def test_broken_file_leaves_the_scene(self):
+        (self.folder / "broken.gltf").write_text("{")
+        self.play(f"open {self.scene}\nset size 24x18\nset spp 2\nwait idle\nsave a.exr\nwait saved\n"
+                  "open broken.gltf\nwait loaded\nwait frames 3\nreport report.json\n"
+                  "screenshot broken.png\nset seed 0\nsave b.exr\nwait saved")
+        self.keep("broken.png")
+        self.assertRegex(self.report()["error"], r"^\S.* \(.*broken\.gltf.*\); \S.*$")
+        self.assertTrue(self.report()["scene"].endswith("tiny.gltf"))
+        self.assertEqual((self.folder / "a.exr").read_bytes(), (self.folder / "b.exr").read_bytes())
+
+    def test_changed_file_is_read_again_and_the_camera_stays(self):
+        script = self.folder / "script.txt"
+        script.write_text(f"timeout {60 * window_test.slow:g}\nopen {self.scene}\nset size 24x18\n"
+                          "set spp 2\nwait loaded\ncamera orbit 20 5\nwait idle\nsave a.exr\n"
+                          "wait saved\nreport first.json\nwait reload\nwait idle\nsave b.exr\n"
+                          "wait saved\ncopy line.txt\nquit\n")
+        process = subprocess.Popen([str(window_test.view), "--offscreen", "--script", str(script)],
+                                   cwd=self.folder, env=self.environment)
+        self.addCleanup(process.kill)
+        self.assertTrue(wait_for((self.folder / "first.json").exists))
+        tiny_scene.write_gltf(self.scene, albedo=0.2)
+        self.assertEqual(0, process.wait(timeout=120 * window_test.slow))
+        self.assertIn("--look-at", (self.folder / "line.txt").read_text())
+        batch = self.run_command_line(self.folder / "line.txt")
+        self.assertEqual(batch.read_bytes(), (self.folder / "b.exr").read_bytes())
+        self.assertNotEqual((self.folder / "a.exr").read_bytes(),
+                            (self.folder / "b.exr").read_bytes())
+
+
+class Behaviour(WindowTest):
+    def test_finished_window_rests(self):
+        """At most a twentieth of a core, the look at the files once a second included."""
+        self.play(f"open {self.scene}\nset size 24x18\nset spp 1\nwait idle\nwait seconds 6\nmark\n"
+                  "wait seconds 4\nreport report.json")
+        report = self.report()
+        self.assertLessEqual(report["frames"]["count"], 8)
+        self.assertLess(report["cpu_seconds"], 0.05 * report["seconds"])
+
+    def test_exposure_and_exponent_of_the_same_paths_do_not_restart(self):
+        self.play(f"open {self.scene}\nset size 24x18\nset same-paths on\nset spp 2\nwait idle\n"
+                  "report before.json\nset exposure 1\nset curve agx\nset channel error\n"
+                  "set panels off\nset exponent 0\nwait frames 3\nset exponent 1\nset zoom 4\n"
+                  "resize 500x400\nwait seconds 1\nwait idle\nreport after.json")
+        self.assertEqual(self.report("before.json")["job"], self.report("after.json")["job"])
+
+    def test_camera_and_settings_restart(self):
+        self.play(f"open {self.scene}\nset size 24x18\nset spp 2\nwait idle\nreport a.json\n"
+                  "camera orbit 5\nwait idle\nreport b.json\nset technique path\nwait idle\n"
+                  "report c.json\nset lamp-strength 2\nwait idle\nreport d.json\n"
+                  "set spp 4\nwait spp 4\nwait idle\nreport e.json")
+        jobs = [self.report(f"{name}.json")["job"] for name in "abcde"]
+        self.assertTrue(jobs[0] < jobs[1] < jobs[2] < jobs[3] == jobs[4], jobs)
+
+    def test_hands_reach_the_panels(self):
+        self.play(f"open {self.scene}\nset size 48x36\nset spp 2\nwait idle\nscreenshot a.png\n"
+                  "key Tab\nwait frames 3\nscreenshot b.png\nkey Tab\nkey F1\nwait frames 3\n"
+                  "screenshot c.png\nkey Escape\nkey 1\nwait idle\nsave path.exr\nwait saved\n"
+                  "key b\nwait idle\nsave balance.exr\nwait saved\nreport r1.json\n"
+                  "drag 500 300 560 320\nwait seconds 1\nwait idle\nreport r2.json",
+                  size="1000x600")
+        shots = [read_png(self.folder / f"{n}.png")[2] for n in "abc"]
+        self.assertTrue(shots[0] != shots[1] != shots[2] != shots[0])
+        self.keep("c.png")
+        path, balance = (ExrFile(self.folder / n).attributes for n in ("path.exr", "balance.exr"))
+        self.assertIn(b'"technique":"path"', path["midway:settings"])
+        self.assertEqual(b"1", balance["midway:exponent"])
+        self.assertLess(self.report("r1.json")["job"], self.report("r2.json")["job"])
+
+
+class Refusals(WindowTest):
+    def refused(self, done):
+        self.assertRegex(done.stderr.strip(), ERROR_LINE)
+
+    def test_without_a_display_one_line_says_what_to_do(self):
+        done = self.run_view(self.scene, status=1)
+        self.refused(done)
+        self.assertIn("--offscreen", done.stderr)
+        self.assertIn("midway render", done.stderr)
+
+    def test_wrong_usage(self):
+        for words in (["--windwo", "3x3"], ["--window", "3"], ["--technique", "photon"],
+                      ["a.glb", "b.glb"], ["--frames"], ["--spp", "0"]):
+            with self.subTest(words):
+                self.refused(self.run_view("--offscreen", *words, status=2))
+
+    def test_faults_of_a_script_name_their_line(self):
+        for text, line in {"frobnicate": 2, "set technique": 2, "set technique photon": 2,
+                           "set exponent -1": 2, "wait forever": 2, "key Hyper": 2,
+                           f"open {self.scene}\nwait loaded\ncamera hop 3": 4}.items():
+            with self.subTest(text):
+                done = self.play(text, status=1)
+                self.refused(done)
+                self.assertIn(f"script.txt:{line})", done.stderr)
+
+    def test_a_missing_script(self):
+        self.refused(self.run_view("--offscreen", "--script", "nowhere.txt", status=1))
