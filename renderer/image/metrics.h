@@ -12,9 +12,9 @@
 // A reference that is itself a noisy mean of independent parts adds its own variance v to every
 // square. Where v is given, (x - r)^2 - v takes the square's place in mse, relmse and
 // relmse_trimmed: its expectation is x's own error, whatever the noise of r (of two halves a, b it
-// is the product (x - a)(x - b)). The denominators keep the noise of r, which shifts relmse by
-// some 6 v^2 / r^4 only. mse and relmse may then fall below 0; rmse is 0 there. Pixels are trimmed
-// by the bare square.
+// is the product (x - a)(x - b)). The denominators keep the noise of r, which raises relmse by a
+// share of some 3 v / r^2 and by 6 v^2 / r^4: little where v is small. mse and relmse may then fall
+// below 0; rmse is 0 there. Pixels are trimmed by the bare square.
 //
 // A quotient 0 / 0 counts as 0. Throws std::runtime_error with one line "WHAT (WHERE); REMEDY" for
 // images that cannot be compared: sizes differ, no pixel counts, or one that counts is not finite.

@@ -1,0 +1,209 @@
+"""`midway compare`, and errors while rendering: files, columns, continuing, refusals."""
+
+import csv
+import json
+
+from harness import CliTest
+
+COLUMNS = ["technique", "exponent", "seed", "seconds", "cpu_seconds", "spp", "mse", "rmse", "relmse",
+           "relmse_trimmed", "smape", "bias", "bias_z"]
+
+
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        return reader.fieldnames, list(reader)
+
+
+class Compare(CliTest):
+    def compare(self, *arguments, size="24x16", **options):
+        return self.run_midway("compare", self.scene, "-o", self.out, "--size", size, *arguments,
+                               **options)
+
+    def short(self, *arguments, **options):
+        return self.compare("--time", 0.2, "--seeds", 2, "--techniques", "path,bdpt:1",
+                            "--reference-time", 1, *arguments, **options)
+
+    def summary(self, folder=None):
+        return json.loads(((folder or self.out) / "summary.json").read_text())
+
+    def test_leaves_report_table_summary_and_images(self):
+        done = self.short()
+        self.assert_files("convergence.csv", "films", "images", "references", "report.html",
+                          "summary.json")
+        self.assertEqual({"reference.exr", "path.exr", "bdpt-1.exr"},
+                         {path.name for path in (self.out / "images").iterdir()})
+        self.assertIn("report.html", done.stdout)
+        names, rows = rows_of(self.out / "convergence.csv")
+        self.assertEqual(COLUMNS, names)
+        self.assertEqual({("path", "2", "0"), ("path", "2", "1"), ("bdpt", "1", "0"),
+                          ("bdpt", "1", "1")},
+                         {(r["technique"], r["exponent"], r["seed"]) for r in rows})
+        for technique in ("path", "bdpt"):
+            times = [float(r["seconds"]) for r in rows
+                     if r["technique"] == technique and r["seed"] == "0"]
+            self.assertEqual(sorted(times), times)
+            self.assertGreaterEqual(times[-1], 0.2)
+        told = self.summary()
+        self.assertTrue(told["complete"])
+        self.assertGreater(told["reference"]["floor_relmse"], 0)
+        self.assertGreater(told["metric_seconds"], 0)
+        self.assertIn("compare", told["command"])
+        self.assertEqual(["path", "bdpt:1"], [t["label"] for t in told["techniques"]])
+        self.assertNotIn("efficiency", told["techniques"][0])
+        self.assertGreater(told["techniques"][1]["efficiency"]["value"], 0)
+        html = (self.out / "report.html").read_text(encoding="utf-8")
+        self.assertIn("bdpt:1", html)
+
+    def test_goes_on_where_it_was(self):
+        self.short()
+        before = (self.out / "convergence.csv").read_bytes()
+        films = {p.name: p.stat().st_mtime_ns for p in (self.out / "films").iterdir()}
+        self.short()
+        self.assertEqual(before, (self.out / "convergence.csv").read_bytes())
+        self.assertEqual(films, {p.name: p.stat().st_mtime_ns
+                                 for p in (self.out / "films").iterdir()})
+        # More seeds: those that are there stay as they are.
+        old = list(csv.DictReader(before.decode().splitlines()))
+        self.compare("--time", 0.2, "--seeds", 3, "--techniques", "path,bdpt:1",
+                     "--reference-time", 1)
+        _, rows = rows_of(self.out / "convergence.csv")
+        self.assertEqual(old, [r for r in rows if r["seed"] != "2"])
+        # More time: the curves go on from their last points.
+        self.compare("--time", 0.4, "--seeds", 2, "--techniques", "path,bdpt:1",
+                     "--reference-time", 1)
+        _, rows = rows_of(self.out / "convergence.csv")
+        first = [r for r in old if r["technique"] == "path" and r["seed"] == "0"]
+        self.assertEqual(first, rows[:len(first)])
+        self.assertGreater(len(rows), len(old))
+
+    def test_another_setting_starts_anew_and_says_so(self):
+        self.short()
+        told = self.short("--max-bounces", 2).stderr
+        self.assertIn("anew", told)
+
+    def test_ends_at_ctrl_c_with_a_report(self):
+        reference = self.folder / "r.film"
+        self.render("-o", reference, "--spp", 64, "--seed", 99, size="24x16")
+        process = self.start("compare", self.scene, "-o", self.out, "--size", "24x16", "--time", 60,
+                             "--seeds", 2, "--techniques", "path,bdpt", "--reference", reference)
+        self.wait_until_rendering(process)
+        self.assertEqual(130, self.interrupt(process))
+        told = self.summary()
+        self.assertFalse(told["complete"])
+        self.assertTrue(any("stopped early" in w for w in told["warnings"]))
+        self.assertIn("stopped early", (self.out / "report.html").read_text(encoding="utf-8").lower())
+        _, rows = rows_of(self.out / "convergence.csv")
+        self.assertGreater(len(rows), 4)
+
+    def test_takes_a_reference_and_finds_a_planted_bias(self):
+        # Lamps 3 % stronger in the reference: every technique is too dark by that.
+        self.render("-o", self.out / "r.film", "--spp", 3000, "--seed", 99, "--lamp-strength", 1.03,
+                    size="24x16")
+        told = self.compare("--time", 1, "--seeds", 3, "--techniques", "bdpt", "--reference",
+                            self.out / "r.film", status=0)
+        self.assertIn("BIASED", told.stdout)
+        bias = self.summary()["techniques"][0]["bias"]
+        self.assertTrue(bias["flagged"])
+        self.assertAlmostEqual(1 / 1.03 - 1, bias["relative"]["value"], delta=0.01)
+
+    def test_refuses_what_makes_no_sense(self):
+        for arguments in (["--time", 1, "--techniques", "path,path"], ["--techniques", "path"],
+                          ["--time", 1, "--techniques", "photons"], ["--time", 1, "--seeds", 0],
+                          ["--time", -1], ["--time", 1, "--suite", self.scene],
+                          ["--time", 1, "--reference", "a.exr", "--reference-time", 2]):
+            self.refused("compare", self.scene, "-o", self.out, *arguments, status=2)
+        self.refused("compare", "-o", self.out, "--time", 1, status=2)
+        small = self.render_exr("small", "--spp", 1, size="8x8")
+        self.refused("compare", self.scene, "-o", self.out, "--time", 1, "--size", "9x9",
+                     "--reference", small, status=1)
+
+
+class Suite(CliTest):
+    def write(self, **changes):
+        suite = {"size": "16x12", "time": 0.1, "seeds": 2, "techniques": ["path", "bdpt"],
+                 "reference-time": 0.5,
+                 "scenes": [{"name": "one", "scene": "tiny.gltf"},
+                            {"name": "two", "scene": "tiny.gltf", "sky": "0.2,0.3,0.4"}]}
+        suite.update(changes)
+        path = self.folder / "suite.json"
+        path.write_text(json.dumps(suite))
+        return path
+
+    def test_makes_a_report_of_every_scene_and_one_page(self):
+        self.run_midway("compare", "--suite", self.write(), "-o", self.out)
+        self.assert_files("index.html", "one", "references", "summary.json", "table.md", "two")
+        for name in ("one", "two"):
+            self.assertTrue((self.out / name / "report.html").is_file())
+        told = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(["one", "two"], [scene["name"] for scene in told["scenes"]])
+        self.assertEqual("colour", told["scenes"][1]["settings"]["sky"])
+        table = (self.out / "table.md").read_text()
+        self.assertIn("| one |", table)
+        self.assertIn("`bdpt:2`", table)
+        # What is typed comes before what the file says.
+        self.run_midway("compare", "--suite", self.write(), "-o", self.out, "--techniques", "path")
+        self.assertNotIn("`bdpt:2`", (self.out / "table.md").read_text())
+
+    def test_refuses_broken_suites(self):
+        scene = {"name": "one", "scene": "tiny.gltf"}
+        for scenes in ([], [scene, scene], [{**scene, "name": "../x"}], [{**scene, "name": ""}],
+                       [{**scene, "scene": "none.glb"}], [{**scene, "colour": 1}], [{"name": "a"}],
+                       [{**scene, "scene": 7}]):
+            self.refused("compare", "--suite", self.write(scenes=scenes), "-o", self.out, status=1)
+        for change in ({"time": -1}, {"seeds": "many"}, {"paint": 1}):
+            self.refused("compare", "--suite", self.write(**change), "-o", self.out, status=1)
+        self.refused("compare", "--suite", self.folder / "none.json", "-o", self.out, status=1)
+
+
+class ErrorLog(CliTest):
+    def setUp(self):
+        super().setUp()
+        self.reference = self.out / "r.film"
+        self.render("-o", self.reference, "--spp", 400, "--seed", 9)
+
+    def test_writes_the_errors_of_every_exponent_while_rendering(self):
+        log = self.out / "log.csv"
+        image = self.render_exr("a", "--spp", 11, "--exponent", "1,2", "--reference",
+                                self.reference, "--error-log", log)
+        names, rows = rows_of(log)
+        self.assertEqual(COLUMNS, names)
+        self.assertEqual([str(n) for n in (1, 2, 3, 4, 5, 6, 7, 8, 10, 11) for _ in (1, 2)],
+                         [r["spp"] for r in rows])
+        self.assertEqual({"1", "2"}, {r["exponent"] for r in rows})
+        self.assertFalse(image.exists())  # one image for each exponent
+        self.render("-o", self.out / "r.exr", "--spp", 400, "--seed", 9)
+        told = json.loads(self.run_midway("diff", self.out / "a.b2.exr", self.out / "r.exr",
+                                          "--json").stdout)
+        last = rows[-1]
+        self.assertAlmostEqual(told["mean_ratio"] - 1, float(last["bias"]), places=9)
+        self.assertAlmostEqual(told["smape"], float(last["smape"]), places=9)
+        # The reference's own variance is subtracted.
+        self.assertLess(float(last["relmse"]), told["relmse"])
+        self.assertGreater(float(last["relmse"]), 0.8 * told["relmse"])
+
+    def test_stops_at_an_error_and_always_at_the_same_sample(self):
+        spp = {self.stats("--target-error", 0.05, "--threads", threads, "--seed", 3)["spp"]
+               for threads in (1, 2, 3)}
+        self.assertEqual(1, len(spp))
+        self.assertGreater(spp.pop(), 4)
+        against = [self.stats("--target-error", target, "--reference", self.reference)["spp"]
+                   for target in (0.1, 0.01)]
+        self.assertLess(against[0], against[1])
+        error = json.loads(self.run_midway("diff", self.out / "stats.exr", self.image_of_reference(),
+                                           "--json").stdout)["relmse"]
+        self.assertLess(error, 0.013)
+        self.assertEqual(6, self.stats("--target-error", 1e-9, "--spp", 6)["spp"])
+
+    def image_of_reference(self):
+        path = self.out / "reference.exr"
+        self.run_midway("merge", self.reference, "-o", path)
+        return path
+
+    def test_refuses_logs_without_a_reference(self):
+        image = self.out / "x.exr"
+        for arguments in (["--error-log", "e.csv"], ["--reference", self.reference],
+                          ["--target-error", 0]):
+            self.refused("render", self.scene, "-o", image, *arguments, status=2)
+        self.refused("render", self.scene, "-o", image, "--size", "9x9", "--reference",
+                     self.reference, "--target-error", 0.1, status=1)
