@@ -1,5 +1,7 @@
 #include "integrator/estimator.h"
 
+#include "integrator/edge.h"
+
 namespace midway {
 namespace {
 
@@ -7,10 +9,6 @@ bool no_weight(const Estimator& e, const Contribution& c) {
     for (int i = 0; i < e.exponent_count; ++i)
         if (c.weights[i] > 0) return false;
     return true;
-}
-
-vec3 leave(const PathVertex& v, const vec3& towards) {
-    return offset_origin(v.position, v.ng, v.error, towards);
 }
 
 // The strategy that moves the connecting edge one step towards the camera (or the light) is
@@ -98,8 +96,7 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
     if (no_weight(e, c)) return {};
 
     rays.count_shadow(c.strategy);
-    const float seen = visibility(*e.scene, leave(v, direction),
-                                  offset_end(l.position, l.ng, l.error, v.position));
+    const float seen = edge_visibility(*e.scene, v, l);
     if (seen == 0) return {};
     c.value *= seen;
     return c;
@@ -138,7 +135,7 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l,
     if (no_weight(e, c)) return {};
 
     rays.count_shadow(c.strategy);
-    const float seen = visibility(*e.scene, leave(l, direction), lens);
+    const float seen = edge_visibility(*e.scene, l, lens);
     if (seen == 0) return {};
     c.value *= seen;
     return s;

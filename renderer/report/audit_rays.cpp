@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "integrator/edge.h"
 #include "math/hash.h"
 #include "math/warp.h"
 #include "report/audit_leaks.h"
@@ -73,17 +74,9 @@ struct Tracer {
     void try_edge(const Walk& w, const PathVertex* before, const vec3& lens) {
         const PathVertex& v = w.vertex;
         ++sums.edges;
-        if (before ? !connects(*before, v) : !sees(v, lens))
-            sums.blocked.add(place, name(w.point.hit.object));
-    }
-
-    bool sees(const PathVertex& v, const vec3& point) const {
-        const vec3 from = offset_origin(v.position, v.ng, v.error, point - v.position);
-        return visibility(*e.scene, from, point) > 0;
-    }
-    bool connects(const PathVertex& a, const PathVertex& b) const {
-        const vec3 from = offset_origin(a.position, a.ng, a.error, b.position - a.position);
-        return visibility(*e.scene, from, offset_end(b.position, b.ng, b.error, a.position)) > 0;
+        const float seen =
+            before ? edge_visibility(*e.scene, *before, v) : edge_visibility(*e.scene, v, lens);
+        if (seen == 0) sums.blocked.add(place, name(w.point.hit.object));
     }
 
     void walk(Walk w, bool camera, Numbers& numbers, std::vector<PathVertex>& vertices) {
@@ -108,7 +101,9 @@ struct Tracer {
         if (!(length_squared(b.position - a.position) > 0)) return;
         ++sums.pairs;
         place.vertex = a.index;
-        if (connects(a, b) != connects(b, a)) sums.unequal.add(place, "");
+        const bool there = edge_visibility(*e.scene, a, b) > 0;
+        const bool back = edge_visibility(*e.scene, b, a) > 0;
+        if (there != back) sums.unequal.add(place, "");
     }
 };
 
