@@ -38,8 +38,8 @@ class Words {
     std::vector<std::string> list;
 
     void option(const std::string& name, const std::string& value) {
-        // A value that begins like an option, or is empty, stays with its name.
-        if (value.empty() || value.front() == '-') {
+        // A value that begins like an option stays with its name.
+        if (!value.empty() && value.front() == '-') {
             list.push_back(name + "=" + value);
         } else {
             list.push_back(name);
