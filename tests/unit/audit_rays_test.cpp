@@ -104,6 +104,8 @@ TEST(AuditRays, SmallFarTrianglesDoNotHideBehindThemselves) {
     SceneDescription d;
     add(d, make_icosphere({0, 0, 0}, 0.001f, 3), lambert(vec3(0.8f)));
     add(d, make_quad({0.9f, -0.1f, -0.1f}, {0, 0.2f, 0}, {0, 0, 0.2f}), lambert(vec3(0.8f)));
+    // One on the other side keeps the ball at the origin, where its own error bound is small.
+    add(d, make_quad({-0.9f, -0.1f, -0.1f}, {0, 0.2f, 0}, {0, 0, 0.2f}), lambert(vec3(0.8f)));
     const std::shared_ptr<const Scene> scene = build(d);
     const Object& ball = scene->geometry->objects[0];
     const vec3 from = scene->geometry->objects[1].positions[0] - vec3(0.1f, 0, 0);
