@@ -54,7 +54,7 @@ void add_efficiency_table(HtmlPage& page, const Comparison& c) {
         "Efficiency is 1 / (relMSE x seconds), here relative to " + first +
         ": 2 means half the error in the same time, or the same error in half the time where error "
         "falls as 1 / time. Under each number is its 95 % interval. A tick or a cross stands where "
-        "the whole interval lies above or below 1. \"> 60\" seconds: not reached by then.";
+        "the whole interval lies above or below 1. \"> N\" seconds: not reached after N.";
     table.columns = {"technique", "efficiency", "trimmed", "slope against seconds",
                      "slope against samples"};
     std::vector<double> levels;
@@ -130,7 +130,8 @@ void add_images(HtmlPage& page, const Comparison& c) {
         "The last image of each technique's first seed. Choose two; what moves or zooms one moves "
         "or zooms both.");
     const auto best = std::ranges::find(images, verdict_of(c).best, &PageImage::name);
-    add_image_viewer(page, images, best == images.end() ? 0 : size_t(best - images.begin()));
+    add_image_viewer(page, images,
+                     best == images.end() ? images.size() - 1 : size_t(best - images.begin()));
 }
 
 void add_gaps(HtmlPage& page, const Comparison& c) {

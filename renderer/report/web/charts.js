@@ -8,6 +8,7 @@ midway.superscript = (n) => String(n).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴
 midway.log_tick = (value, decades) => {
     const exponent = Math.floor(Math.log10(value) + 1e-9);
     const lead = Math.round(value / 10 ** exponent);
+    if (Math.abs(value / 10 ** exponent - lead) > 1e-6) return "";  // the ends of the axis
     if (lead !== 1 && !(decades < 2.2 && (lead === 2 || lead === 5))) return "";
     if (exponent >= -2 && exponent <= 4) return String(Number(value.toPrecision(2)));
     return (lead === 1 ? "" : `${lead}·`) + "10" + midway.superscript(exponent);
@@ -188,7 +189,9 @@ midway.draw_chart = (figure) => {
         const all = spec.series.map((series) => midway.points(series, state.x, state.y)).flat();
         const ys = all.map((p) => p.y), lowest = Math.min(...ys);
         const near = state.y.levels.filter((l) => !state.y.logarithmic || l.value > lowest / 300);
-        const highs = all.map((p) => p.high).filter((v) => v !== null);
+        // Few seeds give bands of many decades, which would leave no room for the curves.
+        const roof = state.y.logarithmic ? 10 * Math.max(...ys) : Infinity;
+        const highs = all.map((p) => p.high).filter((v) => v !== null).map((v) => Math.min(v, roof));
         const y_limits = midway.limits([...ys, ...highs, ...near.map((l) => l.value)], state.y.logarithmic);
         const x_limits = midway.limits(all.map((p) => p.x), state.x.logarithmic);
         const far = state.y.levels.filter((l) => !near.includes(l))
