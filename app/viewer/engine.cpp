@@ -92,6 +92,7 @@ News take_loaded(App& app, Engine& engine) {
     }
     d.options = loaded->options;
     d.path = engine.opening_path;
+    app.camera.bookmarks.clear();
     app.display.zoom = 0;
     app.display.pan = vec2(0);
     if (engine.opening) {

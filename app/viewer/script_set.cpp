@@ -133,6 +133,31 @@ Change set_stops(App& app, Text key, Text value) {
     return display;
 }
 
+// Views to come back to: eye, target and field of view (radians) of each, parted by semicolons.
+Change set_views(App& app, Text key, Text value) {
+    app.camera.bookmarks.clear();
+    for (size_t start = 0; start < value.size() && app.camera.bookmarks.size() < 100;) {
+        const size_t end = std::min(value.find(';', start), value.size());
+        const auto n = numbers<7>(key, value.substr(start, end - start));
+        const View view{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, n[6]};
+        if (view.eye == view.target || !(view.yfov > 0 && view.yfov < pi))
+            refuse(key, value, "give eye, target and field of view");
+        app.camera.bookmarks.push_back(
+            {fmt::format("View {}", app.camera.bookmarks.size() + 1), view});
+        start = end + 1;
+    }
+    return display;
+}
+
+std::string views_of(const App& app) {
+    std::string text;
+    for (const CameraChoices::Bookmark& b : app.camera.bookmarks)
+        text += fmt::format("{}{},{},{},{},{},{},{}", text.empty() ? "" : ";", b.view.eye.x,
+                            b.view.eye.y, b.view.eye.z, b.view.target.x, b.view.target.y,
+                            b.view.target.z, b.view.yfov);
+    return text;
+}
+
 // Settings of light transport, as the options of midway render.
 constexpr Key render_keys[] = {
     {"technique", set_technique},
@@ -222,6 +247,7 @@ constexpr Key display_keys[] = {
      }},
     {"pixel-values",
      [](App& a, Text k, Text v) { return a.display.pixel_values = on_off(k, v), display; }},
+    {"views", set_views},
     {"panels", [](App& a, Text k, Text v) { return a.ui.panels = on_off(k, v), display; }},
     {"keys", [](App& a, Text k, Text v) { return a.ui.keys = on_off(k, v), display; }},
     {"gallery", [](App& a, Text k, Text v) { return a.ui.gallery = on_off(k, v), display; }},
@@ -256,7 +282,8 @@ std::map<std::string, std::string> window_values(const App& app) {
             {"curve", name_of(d.curve, curves)},
             {"false-colour", d.false_colour ? "on" : "off"},
             {"stops", fmt::format("{},{}", d.stop_low, d.stop_high)},
-            {"channel", name_of(d.channel, channels)}};
+            {"channel", name_of(d.channel, channels)},
+            {"views", views_of(app)}};
 }
 
 }  // namespace midway

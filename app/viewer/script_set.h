@@ -15,7 +15,7 @@ Change set_value(App& app, const std::string& key, const std::string& value);
 
 bool is_value_key(const std::string& key);
 
-// How the image is shown, as set_value() takes it.
+// How the image is shown, and the views to come back to, as set_value() takes them.
 std::map<std::string, std::string> window_values(const App& app);
 
 }  // namespace midway

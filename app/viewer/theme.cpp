@@ -92,8 +92,8 @@ void set_colors(ImGuiStyle& s) {
     set(ImGuiCol_ScrollbarGrabHovered, rgb(0x5a5a5a));
     set(ImGuiCol_ScrollbarGrabActive, rgb(0x6a6a6a));
     set(ImGuiCol_CheckMark, rgb(0xe6e6e6));
-    set(ImGuiCol_SliderGrab, rgb(0xa8a8a8));
-    set(ImGuiCol_SliderGrabActive, rgb(0xe6e6e6));
+    set(ImGuiCol_SliderGrab, rgb(0x646464));
+    set(ImGuiCol_SliderGrabActive, rgb(0x868686));
     set(ImGuiCol_Button, rgb(0x3d3d3d));
     set(ImGuiCol_ButtonHovered, rgb(0x4c4c4c));
     set(ImGuiCol_ButtonActive, rgb(0x5a5a5a));

@@ -32,7 +32,7 @@ Change draw_exposure(App& app) {
     ui::row("Exposure",
             "In stops (EV): +1 doubles the brightness. [[] and []], with Shift in small "
             "steps. Ctrl+click to type.");
-    ImGui::SetNextItemWidth(-ui::em(4.2f));
+    ImGui::SetNextItemWidth(-ui::em(4.4f));
     if (ImGui::SliderFloat("##exposure", &d.exposure_ev, -10, 10, "%+.2f EV")) {
         d.auto_exposure = false;
         d.exposure_ev = std::clamp(d.exposure_ev, -30.0f, 30.0f);

@@ -21,6 +21,10 @@ void draw_thumbnail(size_t index, const ImVec2& at, const ImVec2& size) {
     if (!r.IsPacked()) return;
     ImVec2 low, high;
     atlas.CalcCustomRectUV(&r, &low, &high);
+    // Half a texel inwards: the neighbours in the atlas must not show.
+    const ImVec2 inset{0.5f * atlas.TexUvScale.x, 0.5f * atlas.TexUvScale.y};
+    low = {low.x + inset.x, low.y + inset.y};
+    high = {high.x - inset.x, high.y - inset.y};
     ImGui::GetWindowDrawList()->AddImage(atlas.TexID, at, {at.x + size.x, at.y + size.y}, low,
                                          high);
 }

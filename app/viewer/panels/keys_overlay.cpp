@@ -1,4 +1,5 @@
 // F1: every key and what the mouse does.
+#include <algorithm>
 #include <string_view>
 
 #include "viewer/keys.h"
@@ -74,6 +75,9 @@ Change draw_keys(App& app) {
     const Change change = handle_keys(app);
     if (!app.ui.keys) return change;
     ui::begin_sheet("##keys", app.ui.keys);
+    // Smaller where the window is too narrow for all three columns.
+    const float needed = em(68);
+    ImGui::SetWindowFontScale(std::clamp(ImGui::GetIO().DisplaySize.x / needed, 0.6f, 1.0f));
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {em(0.2f), em(0.08f)});
     for (int column = 0; column < 3; ++column) {
         if (column > 0) ImGui::SameLine(0, em(1.2f));
@@ -82,6 +86,7 @@ Change draw_keys(App& app) {
         ImGui::EndGroup();
     }
     ImGui::PopStyleVar();
+    ImGui::SetWindowFontScale(1);
     ui::end_sheet();
     return change;
 }

@@ -22,7 +22,7 @@ struct Columns {
 Columns columns_of(const App& app, const ImVec2& size) {
     if (!app.ui.panels) return {};
     const Arrangement& a = app.ui.panel.arrangement;
-    const float width = std::round(em(18.8f));
+    const float width = std::round(em(19));
     Columns c;
     c.bottom = std::round(ImGui::GetFrameHeight() + em(0.3f));
     c.left = a.left ? width : 0;
@@ -36,7 +36,7 @@ void column(const char* name, float x, float width, float height) {
     ImGui::SetNextWindowPos({x, 0});
     ImGui::SetNextWindowSize({width, height});
     // The scroll bar comes and goes in the right padding: nothing may jump when it does.
-    ImGui::SetNextWindowContentSize({width - 2 * ImGui::GetStyle().WindowPadding.x, 0});
+    ImGui::SetNextWindowContentSize({width - 2 * ImGui::GetStyle().WindowPadding.x - em(0.25f), 0});
     ImGui::Begin(name, nullptr, fixed);
     ImGui::End();
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "viewer/panels/parts.h"
@@ -35,10 +36,13 @@ std::string contents(const PreparedScene& p) {
     return text;
 }
 
-// "R,G,B" where the sky is one colour.
+// The colour that was asked for last, or the sky's own; none where it is a map.
 std::optional<vec3> sky_color(const App& app) {
+    vec3 c;
+    const std::optional<std::string>& asked = app.document.options.sky;
+    if (asked && std::sscanf(asked->c_str(), "%f,%f,%f", &c.x, &c.y, &c.z) == 3) return c;
     const auto& sky = app.document.prepared->description.sky;
-    if (!sky || sky->map) return {};
+    if (asked || !sky || sky->map) return {};
     return sky->color;
 }
 
@@ -57,9 +61,16 @@ Change draw_sky_source(App& app) {
     ui::row("Sky",
             "Light from infinitely far around the scene. Drop an .hdr or .exr on the window, "
             "or name one here.");
+    const float button = app.document.options.sky ? ui::em(3.6f) : 0;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(ui::fitted(sky_in_words(app), ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::TextUnformatted(
+        ui::fitted(sky_in_words(app), ImGui::GetContentRegionAvail().x - button).c_str());
     if (p.description.sky) ui::tip(p.description.sky->source.c_str());
+    if (app.document.options.sky) {
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ui::em(3));
+        if (ui::wide_button("File's", "Back to what the file says", -1))
+            ask(app, ActionKind::set_sky);
+    }
     if (p.default_sky)
         ui::note(
             theme::light,
@@ -73,16 +84,10 @@ Change draw_sky_source(App& app) {
         ask(app, ActionKind::set_sky, f.sky_path);
     ui::row("  Colour", "The same light from everywhere. The numbers are radiance.");
     vec3 color = sky_color(app).value_or(vec3(0));
-    ImGui::SetNextItemWidth(app.document.options.sky ? -ui::em(3.6f) : -1);
     if (ImGui::ColorEdit3("##sky colour", &color.x,
                           ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR) &&
         is_finite(color) && color.x >= 0 && color.y >= 0 && color.z >= 0)
         ask(app, ActionKind::set_sky, fmt::format("{},{},{}", color.x, color.y, color.z));
-    if (app.document.options.sky) {
-        ImGui::SameLine();
-        if (ui::wide_button("File's", "Back to what the file says", -1))
-            ask(app, ActionKind::set_sky);
-    }
     return {};
 }
 

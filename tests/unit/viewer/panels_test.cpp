@@ -18,6 +18,7 @@
 #include "viewer/gallery.h"
 #include "viewer/keys.h"
 #include "viewer/panels/parts.h"
+#include "viewer/script_set.h"
 
 namespace midway::test {
 namespace {
@@ -192,6 +193,28 @@ TEST_F(Panels, FramingEndsWithTheWholeSceneInView) {
         const dvec2 at = project(current_view(app), port, p).value();
         EXPECT_TRUE(at.x >= 0 && at.y >= 0 && at.x <= port.width && at.y <= port.height);
     }
+}
+
+TEST_F(Panels, StoredViewsGoThroughASessionToTheBit) {
+    open_scene();
+    frame();
+    for (const double x : {0.1, 1.0 / 3}) {
+        move_to(app, {{x, 0.2, 3e-7}, {1, x * 7, -2}, 0.7});
+        store_bookmark(app);
+    }
+    App other;
+    set_value(other, "views", window_values(app).at("views"));
+    ASSERT_EQ(other.camera.bookmarks.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        const View &a = app.camera.bookmarks[i].view, &b = other.camera.bookmarks[i].view;
+        EXPECT_EQ(a.eye, b.eye);
+        EXPECT_EQ(a.target, b.target);
+        EXPECT_EQ(a.yfov, b.yfov);
+    }
+    EXPECT_THROW(set_value(other, "views", "1,2,3"), std::invalid_argument);
+    EXPECT_THROW(set_value(other, "views", "1,2,3,1,2,3,0.5"), std::invalid_argument);
+    recall_bookmark(other, 1);
+    EXPECT_FALSE(other.camera.animating) << "there is no scene";
 }
 
 TEST_F(Panels, SwitchingBetweenExponentsOfTheSamePathsIsDisplayAlone) {
