@@ -1,0 +1,59 @@
+// Every scene of assets/ under the numerical audit: in the full tier over 1e7 paths, each weighed
+// with exponents up to 32, and 5e7 rays. Paths are fixed and what is measured is rounding, so there
+// is no false alarm.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "report/audit.h"
+#include "support/agreement_scenes.h"
+#include "support/tier.h"
+
+namespace midway::test {
+namespace {
+
+struct Asset {
+    std::string name, sky;
+};
+
+class AuditAssets : public testing::TestWithParam<Asset> {};
+
+TEST_P(AuditAssets, WeightsAndRaysHold) {
+    const std::string folder = MIDWAY_SOURCE_DIR "/assets/";
+    std::string sky = GetParam().sky;
+    if (sky.ends_with(".hdr")) sky = folder + sky;
+    const AgreementScene s = load_agreement_scene(folder + GetParam().name + ".glb", sky);
+    RenderSettings settings;
+    settings.width = settings.height = by_tier(40, 128);
+    AuditOptions options;
+    options.paths = by_tier(10000, 1'300'000);
+    options.rays = by_tier(50000, 6'000'000);
+    const AuditResult r = audit(*s.scene, s.camera, settings, options);
+    for (const AuditCheck& c : r.checks)
+        EXPECT_TRUE(c.passed) << c.name << ": " << c.measured << ", bar " << c.bar << ", at "
+                              << c.fault;
+    EXPECT_GE(r.paths, static_cast<std::uint64_t>(options.paths));
+    EXPECT_LE(double(r.rays.blocked.count), 3 + 1e-4 * double(r.rays.edges));
+    EXPECT_LE(double(r.rays.unequal.count), 3 + 1e-3 * double(r.rays.pairs));
+    const WeightAudit& w = r.weights[power_heuristic];
+    std::cout << fmt::format(
+        "{}: {} paths of up to {} edges; own pdfs median {:.1e}, 99.9 % {:.1e}, bias {:+.1e}; "
+        "blocked {} of {}, unequal {} of {}\n",
+        GetParam().name, r.paths, r.longest_path, w.own_sum.quantile(0.5),
+        w.own_sum.quantile(0.999), w.bias, r.rays.blocked.count, r.rays.edges, r.rays.unequal.count,
+        r.rays.pairs);
+}
+
+const Asset assets[] = {
+    {"cornell", ""}, {"ajar", ""}, {"five-lights", "0.1,0.16,0.28"}, {"idol", ""}, {"lanterns", ""},
+    {"plates", ""},  {"ring", ""}, {"terrace", "terrace_sky.hdr"}};
+INSTANTIATE_TEST_SUITE_P(Scenes, AuditAssets, testing::ValuesIn(assets), [](const auto& info) {
+    std::string name = info.param.name;
+    for (char& c : name)
+        if (c == '-') c = '_';
+    return name;
+});
+
+}  // namespace
+}  // namespace midway::test
