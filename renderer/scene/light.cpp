@@ -23,9 +23,12 @@ float spot_pdf_w(const Light& l, float cos_theta) {
 // cos(theta) in proportion to the falloff: on the ramp the cumulative is a cube.
 float sample_spot_cosine(const Light& l, float u) {
     const float ramp = (l.cos_inner - l.cos_outer) / 3, all = spot_integral(l);
-    if (u * all < ramp)
-        return l.cos_outer +
-               (l.cos_inner - l.cos_outer) * std::cbrt((u * all + 1e-9f * ramp) / ramp);
+    if (u * all < ramp) {
+        const float c =
+            l.cos_outer + (l.cos_inner - l.cos_outer) * std::cbrt((u * all + 1e-9f * ramp) / ramp);
+        // On a narrow ramp the sum may round to its dark end.
+        return std::max(c, std::nextafter(l.cos_outer, 2.0f));
+    }
     return l.cos_inner + std::min(1 - l.cos_inner, u * all - ramp);
 }
 
