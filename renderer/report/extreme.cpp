@@ -9,7 +9,9 @@ namespace midway {
 
 std::vector<ExtremeCase> extreme_cases() {
     std::vector<ExtremeCase> all;
-    for (const auto group : {extreme::film_cases})
+    for (const auto group : {extreme::scale_cases, extreme::intensity_cases, extreme::size_cases,
+                             extreme::glass_cases, extreme::depth_cases, extreme::exponent_cases,
+                             extreme::light_cases, extreme::random_cases, extreme::film_cases})
         for (ExtremeCase& c : group()) all.push_back(std::move(c));
     return all;
 }

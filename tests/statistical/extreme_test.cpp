@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "report/extreme.h"
+#include "report/extreme_measure.h"
 #include "support/tier.h"
 #include "support/worker_mode.h"
 
@@ -17,6 +17,7 @@ void run_group(const std::string& group) {
     context.threads = 1;
     context.assets = MIDWAY_SOURCE_DIR "/assets";
     context.seed = test_seed(0);
+    context.effort = by_tier(0.25, 1.0);
     int ran = 0;
     for (const ExtremeCase& c : extreme_cases()) {
         if (c.group != group || !(c.cheap || full_tier())) continue;
@@ -31,11 +32,21 @@ void run_group(const std::string& group) {
     EXPECT_GT(ran, 0);
 }
 
+TEST(Extreme, Size) { run_group("size"); }
+TEST(Extreme, Roughness) { run_group("roughness"); }
+TEST(Extreme, Intensity) { run_group("intensity"); }
+TEST(Extreme, Scale) { run_group("scale"); }
+TEST(Extreme, Geometry) { run_group("geometry"); }
+TEST(Extreme, Depth) { run_group("depth"); }
+TEST(Extreme, Lights) { run_group("lights"); }
+TEST(Extreme, RandomNumbers) { run_group("random numbers"); }
+TEST(Extreme, Exponent) { run_group("exponent"); }
 TEST(Extreme, Film) { run_group("film"); }
 
 // The whole suite raises a false alarm at most once in a thousand changes of its random numbers.
 TEST(Extreme, EveryGroupIsRunAndTheFalseAlarmsAreFew) {
-    const std::set<std::string> known{"film"};
+    const std::set<std::string> known{"scale", "intensity", "size",   "roughness",      "geometry",
+                                      "depth", "exponent",  "lights", "random numbers", "film"};
     std::set<std::string> found, names;
     for (const ExtremeCase& c : extreme_cases()) {
         found.insert(c.group);
@@ -43,6 +54,7 @@ TEST(Extreme, EveryGroupIsRunAndTheFalseAlarmsAreFew) {
         EXPECT_FALSE(c.sentence.empty());
     }
     EXPECT_EQ(found, known);
+    EXPECT_LE(extreme::case_alarm * double(names.size()), 1e-3);
 }
 
 }  // namespace
