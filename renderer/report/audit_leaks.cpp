@@ -10,6 +10,8 @@ using Vec = glm::vec<3, Real>;
 
 // A leak within so many error bounds of an edge is one that rounding explains.
 constexpr double near_edge = 64;
+// A hit so close to an edge may lie beyond the neighbour.
+constexpr double touching = 4;
 
 Real dot(const Vec& a, const Vec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec cross(const Vec& a, const Vec& b) {
@@ -37,6 +39,20 @@ Real distance_to_segment(const Vec& origin, const Vec& d, const Vec& a, const Ve
     if (ee > 0) u = std::clamp<Real>((t * de + er) / ee, 0, 1);
     const Vec gap = r + d * t - e * u;
     return std::sqrt(dot(gap, gap));
+}
+
+// Distance of a point on a triangle from the nearest of its edges.
+Real distance_to_edge(const Object& o, int triangle, const Vec& point) {
+    const uvec3& index = o.triangles[triangle];
+    const Vec v[3] = {Vec(o.positions[index.x]), Vec(o.positions[index.y]),
+                      Vec(o.positions[index.z])};
+    Real distance = std::numeric_limits<Real>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const Vec e = v[(k + 1) % 3] - v[k], r = point - v[k];
+        const Vec gap = r - e * std::clamp<Real>(dot(e, r) / dot(e, e), 0, 1);
+        distance = std::min(distance, std::sqrt(dot(gap, gap)));
+    }
+    return distance;
 }
 
 // Where a ray crosses the plane of a triangle, in long double (Moeller & Trumbore 1997).
@@ -86,7 +102,7 @@ bool agree(const Object& o, const ExactRay& exact, const TriangleHit& found, con
            const Vec& d, Real error) {
     if (!exact.hit || found.object < 0) return exact.hit == (found.object >= 0);
     const Crossing c = cross_triangle(o, found.triangle, origin, d);
-    return std::abs(c.t - exact.first.t) * std::sqrt(dot(d, d)) <= 4 * error;
+    return std::abs(c.t - exact.first.t) * std::sqrt(dot(d, d)) <= touching * error;
 }
 
 }  // namespace
@@ -130,11 +146,14 @@ LeakFinding follow(const ClosedMesh& mesh, const LeavingRay& leaving) {
     const ExactRay exact = trace_exactly(o, origin, d, endless);
     // The offset may have carried the origin through a neighbour.
     const ExactRay offset = trace_exactly(o, start, origin - start, 1, leaving.triangle);
-    if (!offset.hit && agree(o, exact, hit, origin, d, leaving.error))
+    // Or the hit itself, rounded, already lies beyond it.
+    const Real start_distance = distance_to_edge(o, leaving.triangle, start);
+    const bool beyond = start_distance <= touching * leaving.error;
+    if (!beyond && !offset.hit && agree(o, exact, hit, origin, d, leaving.error))
         return {RayOutcome::overlap, 0};
     LeakFinding finding;
-    finding.edge_distance =
-        static_cast<double>(std::min(exact.edge_distance, offset.edge_distance) / leaving.error);
+    finding.edge_distance = static_cast<double>(
+        std::min({exact.edge_distance, offset.edge_distance, start_distance}) / leaving.error);
     finding.outcome =
         finding.edge_distance <= near_edge ? RayOutcome::leak : RayOutcome::unexplained;
     return finding;
