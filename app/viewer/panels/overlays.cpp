@@ -104,8 +104,7 @@ std::optional<Legend> legend_of(const App& app) {
     if (d.channel == Channel::image && d.false_colour)
         return Legend{"luminance after exposure, in stops", d.stop_low, d.stop_high};
     if (d.channel == Channel::error)
-        return Legend{"estimated error of a pixel, from the second sample on", error_stops.x,
-                      error_stops.y, true};
+        return Legend{"estimated error of a pixel", error_stops.x, error_stops.y, true};
     if (d.channel == Channel::samples)
         return Legend{"samples of a pixel", sample_stops.x, sample_stops.y, false, true};
     return {};

@@ -65,11 +65,6 @@ Change draw_sampler_and_filter(RenderSettings& s) {
         {"Sobol", "Owen-scrambled Sobol points: well spread, less noise for the same samples."},
         {"Independent", "Independent random numbers: the textbook's own."},
     }};
-    constexpr std::array<ui::Choice, 3> filters = {{
-        {"Box", "Every sample counts for its own pixel alone; sharp, pixels independent."},
-        {"Gauss", "Gaussian: soft."},
-        {"Blackman", "Blackman-Harris: soft edges without ringing; the default."},
-    }};
     ui::row("Sampler", "Where the random numbers come from.");
     int sampler = static_cast<int>(s.sampler);
     if (ui::segmented("sampler", samplers, sampler)) {
@@ -77,11 +72,15 @@ Change draw_sampler_and_filter(RenderSettings& s) {
         change.settings = true;
     }
     ui::row("Filter", "How samples near a pixel count for it.");
+    constexpr std::array<const char*, 3> filters{"Box", "Gaussian", "Blackman-Harris"};
     int filter = static_cast<int>(s.filter);
-    if (ui::segmented("filter", filters, filter)) {
+    if (ImGui::Combo("##filter", &filter, filters.data(), static_cast<int>(filters.size()))) {
         s.filter = static_cast<FilterKind>(filter);
         change.settings = true;
     }
+    ui::tip(
+        "Box: every sample counts for its own pixel alone. Gaussian: soft. Blackman-Harris, the "
+        "default: soft edges without ringing.");
     return change;
 }
 
