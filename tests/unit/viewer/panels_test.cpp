@@ -144,6 +144,38 @@ TEST_F(Panels, TheWheelGlidesTowardsThePointAndEnds) {
     EXPECT_NEAR(glm::length(current_view(app).eye - app.camera.pivot) / way, std::exp(-0.36), 0.02);
 }
 
+TEST_F(Panels, FliesWhileTheRightButtonIsHeldAndComesToRest) {
+    open_scene();
+    for (int i = 0; i < 3; ++i) hand(middle());
+    const View before = current_view(app);
+    hand(middle(), 1);
+    ImGui::GetIO().KeysDown[GLFW_KEY_W] = true;
+    for (int i = 0; i < 30; ++i) hand(middle(), 1);
+    EXPECT_TRUE(app.camera.moving);
+    ImGui::GetIO().KeysDown[GLFW_KEY_W] = false;
+    for (int i = 0; i < 60; ++i) hand(middle());
+    EXPECT_FALSE(app.camera.moving);
+    EXPECT_FALSE(app.camera.animating);
+    const dvec3 way = current_view(app).eye - before.eye;
+    EXPECT_NEAR(glm::dot(way, view_basis(before).forward), glm::length(way), 1e-9);
+    // Half the scene's radius a second, for half a second.
+    EXPECT_NEAR(glm::length(way) / scene_radius(*app.document.prepared->scene), 0.25, 0.03);
+}
+
+TEST_F(Panels, CtrlMovesThePixelsAndNotTheCamera) {
+    open_scene();
+    for (int i = 0; i < 3; ++i) hand(middle());
+    ImGui::GetIO().KeyCtrl = true;
+    Change change = hand(middle(), -1, 3);
+    EXPECT_GT(app.display.zoom, 0);
+    change |= hand(middle(), 0);
+    change |= hand(middle() + vec2(40, 10), 0);
+    change |= hand(middle() + vec2(40, 10));
+    EXPECT_NEAR(app.display.pan.x, 40, 1);
+    EXPECT_TRUE(change.display);
+    EXPECT_FALSE(change.restarts());
+}
+
 TEST_F(Panels, DoubleClickSetsThePivotAndMovesNothing) {
     open_scene();
     for (int i = 0; i < 3; ++i) hand(middle());
