@@ -47,7 +47,7 @@ std::vector<AssetPlan> asset_plans() {
           row("EL", some, third, 1024), row("ELC", some, third, 2048)}},
         {"ring",
          "",
-         {row("ENLC", some, tenth, 16384), row("EN", some, one, 1024), row("L", power, one, 4096),
+         {row("ENLC", some, tenth, 16384), row("EN", some, one, 1024), row("L", power, one, 8192),
           row("ENL", some, third, 1024), row("ENC", some, one, 2048), row("EL", some, third, 2048),
           row("ELC", some, third, 1024)}},
         {"lanterns",
