@@ -5,6 +5,7 @@
 #include <backends/imgui_impl_glfw.h>
 
 #include <cstdlib>
+#include <deque>
 #include <stdexcept>
 
 #include "image/file.h"
@@ -12,9 +13,15 @@
 namespace midway {
 namespace {
 
+struct KeyPress {
+    int key = 0, modifiers = 0;
+};
+
 struct DesktopWindow {
     GLFWwindow* handle = nullptr;
     bool event = true;
+    std::deque<KeyPress> presses;  // since the last frame
+    int shown = 0;                 // the key whose press ImGui saw in the last frame
     std::vector<std::string> dropped;
 
     DesktopWindow() = default;
@@ -44,7 +51,10 @@ void watch_events(GLFWwindow* w) {
     glfwSetCursorPosCallback(w, [](GLFWwindow* h, double, double) { window_of(h).event = true; });
     glfwSetMouseButtonCallback(w, [](GLFWwindow* h, int, int, int) { window_of(h).event = true; });
     glfwSetScrollCallback(w, [](GLFWwindow* h, double, double) { window_of(h).event = true; });
-    glfwSetKeyCallback(w, [](GLFWwindow* h, int, int, int, int) { window_of(h).event = true; });
+    glfwSetKeyCallback(w, [](GLFWwindow* h, int key, int, int action, int modifiers) {
+        window_of(h).event = true;
+        if (action == GLFW_PRESS && key >= 0) window_of(h).presses.push_back({key, modifiers});
+    });
     glfwSetCharCallback(w, [](GLFWwindow* h, unsigned) { window_of(h).event = true; });
     glfwSetCursorEnterCallback(w, [](GLFWwindow* h, int) { window_of(h).event = true; });
     glfwSetWindowFocusCallback(w, [](GLFWwindow* h, int) { window_of(h).event = true; });
@@ -56,6 +66,36 @@ void watch_events(GLFWwindow* w) {
         window.event = true;
         window.dropped.insert(window.dropped.end(), paths, paths + count);
     });
+}
+
+// ImGui asks each frame which keys are down; here every press gets a frame of its own, with the
+// modifiers of its moment, even if the key was let go before that frame began.
+void show_presses(DesktopWindow& w) {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto down = [&](int key) { return glfwGetKey(w.handle, key) == GLFW_PRESS; };
+    const int before = std::exchange(w.shown, 0);
+    if (before) {
+        io.KeysDown[before] = down(before);
+        io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
+        io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
+        io.KeyAlt = down(GLFW_KEY_LEFT_ALT) || down(GLFW_KEY_RIGHT_ALT);
+        io.KeySuper = down(GLFW_KEY_LEFT_SUPER) || down(GLFW_KEY_RIGHT_SUPER);
+    }
+    if (w.presses.empty()) return;
+    w.event = true;
+    if (w.presses.front().key == before) {  // twice the same: let it go in between
+        io.KeysDown[before] = false;
+        return;
+    }
+    const KeyPress press = w.presses.front();
+    w.presses.pop_front();
+    for (const KeyPress& later : w.presses) io.KeysDown[later.key] = false;
+    io.KeysDown[press.key] = true;
+    io.KeyCtrl = press.modifiers & GLFW_MOD_CONTROL;
+    io.KeyShift = press.modifiers & GLFW_MOD_SHIFT;
+    io.KeyAlt = press.modifiers & GLFW_MOD_ALT;
+    io.KeySuper = press.modifiers & GLFW_MOD_SUPER;
+    w.shown = press.key;
 }
 
 Display::Target target_of(GLFWwindow* w) {
@@ -111,7 +151,10 @@ Host make_window(ivec2 size, const std::string& title) {
 
     Host host;
     host.gl = std::make_shared<Gl>(load_gl(glfwGetProcAddress));
-    host.begin_frame = [] { ImGui_ImplGlfw_NewFrame(); };
+    host.begin_frame = [window] {
+        ImGui_ImplGlfw_NewFrame();
+        show_presses(*window);
+    };
     host.target = [w] { return target_of(w); };
     host.end_frame = [w] { glfwSwapBuffers(w); };
     host.wait = [](double seconds) {
