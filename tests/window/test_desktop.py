@@ -1,0 +1,127 @@
+"""A person's visit: the window on a display in memory, with real mouse and key events."""
+
+import shutil
+import subprocess
+import time
+import unittest
+
+import tiny_scene
+import window_test
+from exr_file import ExrFile
+from window_test import Desktop, WindowTest, read_png, wait_for
+
+TOOLS = [tool for tool in ("Xvfb", "xdotool") if not shutil.which(tool)]
+
+
+@unittest.skipIf(TOOLS, f"{' and '.join(TOOLS)} missing (app/packages.txt lists them)")
+class Visit(WindowTest):
+    def setUp(self):
+        super().setUp()
+        self.desktop = Desktop(self.environment)
+        self.addCleanup(self.desktop.close)
+        self.hand = self.desktop.hand
+        self.saved = 0
+
+    def open_window(self, *arguments):
+        self.process = subprocess.Popen(
+            [str(window_test.view), *map(str, arguments)], cwd=self.folder, text=True,
+            env=self.desktop.environment, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.addCleanup(self.process.communicate)
+        self.addCleanup(self.process.kill)
+
+    def wait_for_title(self, title):
+        if not wait_for(lambda: self.hand("search", "--name", f"^{title}$")):
+            if self.process.poll() is not None:
+                self.fail(f"ended with {self.process.returncode}: {self.process.stderr.read()}")
+            self.fail(f"no window is called {title}")
+
+    def look(self, name):
+        """A picture of the screen for whoever wants one."""
+        if window_test.pictures and shutil.which("import"):
+            subprocess.run(["import", "-window", "root", f"visit-{name}.png"], check=False,
+                           cwd=self.folder, env=self.desktop.environment)
+            self.keep(f"visit-{name}.png")
+
+    def press(self, key):
+        self.hand("key", key)
+
+    def save(self):
+        """Saves with Ctrl+S and returns the EXR file."""
+        self.saved += 1
+        path = self.folder / ("tiny.exr" if self.saved == 1 else f"tiny-{self.saved}.exr")
+        self.press("ctrl+s")
+        self.assertTrue(wait_for(path.exists), f"{path.name} was not saved")
+        return ExrFile(path)
+
+    def save_until(self, good, what):
+        """Saves until the file is as it should be: an edit may still be on its way."""
+        for _ in range(8):
+            exr = self.save()
+            if good(exr):
+                return exr
+        return self.fail(f"the saved image does not show it: {what}")
+
+    def drag(self, x, y, dx, dy):
+        self.hand("mousemove", x, y, "mousedown", 1)
+        for step in range(1, 9):
+            self.hand("mousemove", x + dx * step // 8, y + dy * step // 8)
+        self.hand("mouseup", 1)
+
+    def test_open_orbit_switch_save_reload_quit(self):
+        self.open_window(self.scene, "--window", "1280x720", "--size", "64x48", "--spp", 4)
+        self.wait_for_title("tiny.gltf - Midway")
+        self.hand("mousemove", 640, 300)
+        first = self.save()
+        self.look("1-open")
+        self.assertEqual((64, 48), (first.width, first.height))
+        self.assertIn(b'"technique":"bdpt"', first.attributes["midway:settings"])
+
+        self.drag(640, 300, -80, 24)
+        self.look("2-orbit")
+        seen = first.attributes["midway:scene_hash"]
+        self.save_until(lambda e: e.attributes["midway:scene_hash"] != seen, "another camera")
+
+        self.hand("mousemove", 52, 49, "click", 1)
+        self.look("3-technique")
+        self.save_until(lambda e: b'"technique":"path"' in e.attributes["midway:settings"],
+                        "path tracing")
+        self.hand("mousemove", 99, 126, "click", 1)
+        self.look("4-exponent")
+        balance = self.save_until(lambda e: e.attributes["midway:exponent"] == b"1", "exponent 1")
+
+        self.press("ctrl+p")
+        self.assertTrue(wait_for((self.folder / "tiny.png").exists))
+        self.assertEqual((64, 48), read_png(self.folder / "tiny.png")[:2])
+
+        tiny_scene.write_gltf(self.scene, albedo=0.2)
+        self.press("F5")
+        seen = balance.attributes["midway:scene_hash"]
+        last = self.save_until(lambda e: e.attributes["midway:scene_hash"] != seen, "another file")
+        self.assertIn(b'"technique":"path"', last.attributes["midway:settings"])
+        self.look("5-reload")
+
+        other = tiny_scene.write_gltf(self.folder / "other.gltf")
+        self.press("ctrl+o")
+        time.sleep(1)
+        self.hand("type", "--delay", "20", str(other))
+        self.press("Return")
+        self.wait_for_title("other.gltf - Midway")
+        self.look("6-other")
+
+        self.press("Escape")
+        self.hand("mousemove", 640, 300)
+        self.press("ctrl+q")
+        self.assertIsNotNone(wait_for(lambda: self.process.poll() is not None))
+        self.assertEqual(0, self.process.returncode, self.process.stderr.read())
+        memory = (self.folder / "config" / "midway" / "imgui.ini").read_text()
+        self.assertIn(f"Recent={other}\nRecent={self.scene}", memory)
+        self.assertIn("Size=1280,720", memory)
+
+    def test_first_visit_opens_the_idol_and_offers_the_tour(self):
+        self.open_window("--window", "900x600", "--size", "64x64", "--spp", 1)
+        self.wait_for_title("idol.glb - Midway")
+        self.look("7-first")
+        self.hand("mousemove", 450, 300)
+        self.press("ctrl+q")
+        self.assertIsNotNone(wait_for(lambda: self.process.poll() is not None))
+        self.assertEqual(0, self.process.returncode)
