@@ -19,25 +19,30 @@ struct Run {
 BiasTest run_of(const Run& r, std::mt19937_64& random) {
     std::normal_distribution<double> normal;
     BiasTest t;
-    t.reference = {{2 * (1 + r.reference_error * normal(random)), 2 * r.reference_error}, 7};
+    RunningMean parts;  // of the reference
+    for (int i = 0; i < 8; ++i)
+        parts.add(2 * (1 + std::sqrt(8.0) * r.reference_error * normal(random)));
+    t.reference = {parts.estimate(), 7};
     for (int i = 0; i < 2 * r.seeds; ++i)
         t.luminances.push_back(2 * (1 + r.bias + r.spread * normal(random)));
     return t;
 }
 
 // 4000 right runs: |z| exceeds a limit of chance p as often as p says (each count within 4.4
-// standard errors; false alarm 3e-5). A z from the normal distribution in place of Student's t
-// would exceed the limit of 1 % three times as often.
+// standard errors; false alarm 6e-5), with references of little and of much error. A z from the
+// normal distribution in place of Student's t would exceed the limit of 1 % three times as often.
 TEST(BiasVerdict, RaisesFalseAlarmsAsOftenAsItSays) {
     constexpr int runs = 4000;
     std::mt19937_64 random(11);
-    for (const double p : {0.2, 0.05, 0.01}) {
-        SCOPED_TRACE(p);
-        int above = 0;
-        for (int i = 0; i < runs; ++i)
-            above += std::abs(judge_bias(run_of({}, random)).z) > normal_limit(p);
-        EXPECT_NEAR(above, p * runs, 4.4 * std::sqrt(p * (1 - p) * runs));
-    }
+    for (const double reference_error : {0.0003, 0.003})
+        for (const double p : {0.2, 0.05, 0.01}) {
+            SCOPED_TRACE(p);
+            int above = 0;
+            for (int i = 0; i < runs; ++i)
+                above += std::abs(judge_bias(run_of({0, 0.004, reference_error}, random)).z) >
+                         normal_limit(p);
+            EXPECT_NEAR(above, p * runs, 4.4 * std::sqrt(p * (1 - p) * runs));
+        }
 }
 
 // A suite of 40 techniques, with a tenth of the noise of ten seconds: none may be flagged but the
