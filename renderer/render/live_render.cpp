@@ -10,14 +10,18 @@ namespace {
 constexpr double first_image_budget = 0.02;  // seconds
 constexpr auto protected_age = std::chrono::milliseconds(50);
 // Snapshots come at least and at most so far apart, in between after a share of the time so far.
+// Resolving large images takes time from rendering: after the first second, at most this share.
 constexpr double shortest_interval = 1.0 / 60, longest_interval = 2, interval_share = 0.05;
+constexpr double first_second = 1, resolving_share = 0.03;
 
 double seconds_between(RenderControl::Clock::time_point a, RenderControl::Clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
 }
 
-double interval_after(double elapsed) {
-    return std::clamp(interval_share * elapsed, shortest_interval, longest_interval);
+double interval_after(double elapsed, double resolving) {
+    double interval = interval_share * elapsed;
+    if (elapsed > first_second) interval = std::max(interval, resolving / resolving_share);
+    return std::clamp(interval, shortest_interval, longest_interval);
 }
 
 }  // namespace
@@ -33,6 +37,7 @@ struct LiveRender::Running {
     std::uint64_t shown_passes = 0, shown_rays = 0;
     double shown_seconds = 0;
     Clock::time_point shown;
+    double resolving = 0;  // seconds that it took
 };
 
 LiveRender::LiveRender(std::function<void()> published)
@@ -257,7 +262,8 @@ void LiveRender::accumulate(Running& r) {
         }
         const bool news = r.renderer->passes() > r.shown_passes || finished != shown_finished;
         const double since = seconds_between(r.shown, Clock::now());
-        if (news && (rest || r.shown_passes == 0 || since >= interval_after(r.seconds))) {
+        if (news &&
+            (rest || r.shown_passes == 0 || since >= interval_after(r.seconds, r.resolving))) {
             if (!publish(r, finished)) return;
             shown_finished = finished;
             free_retired();
@@ -272,7 +278,7 @@ void LiveRender::accumulate(Running& r) {
         }
         const double passes = double(r.renderer->passes());
         const double per_pass = std::max(1e-9, r.seconds / passes);
-        double room = std::max(0.0, interval_after(r.seconds) - since) / per_pass;
+        double room = std::max(0.0, interval_after(r.seconds, r.resolving) - since) / per_pass;
         if (stop_seconds) room = std::min(room, (*stop_seconds - r.seconds) / per_pass);
         auto count = static_cast<std::uint64_t>(std::clamp(room, 1.0, passes));
         if (stop_passes) count = std::min(count, *stop_passes - r.renderer->passes());
@@ -300,9 +306,11 @@ bool LiveRender::render(Running& r, std::uint64_t passes) {
 bool LiveRender::publish(Running& r, bool finished) {
     const LiveJob& job = r.pending.job;
     const ProgressiveRenderer& renderer = *r.renderer;
+    const auto began = Clock::now();
     std::optional<ResolvedImages> resolved =
         resolve_all(renderer, job.settings.exponents.size(), pool_, control_);
     if (!resolved) return false;
+    r.resolving = seconds_between(began, Clock::now());
     auto s = std::make_shared<Snapshot>();
     s->job = r.pending.number;
     s->scale = r.scale;
