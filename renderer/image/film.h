@@ -70,6 +70,13 @@ class Film {
     // caller counts it.
     [[nodiscard]] bool add(int half, int x, int y, const FixedRgb& value);
 
+    // Asks the memory for what add() will touch: without it most of a splat's time is one miss.
+    void prefetch(int half, int x, int y) const {
+        const std::uint64_t* word = &words_[place(half, x, y)];
+        __builtin_prefetch(word, 1);
+        __builtin_prefetch(word + 5, 1);
+    }
+
     // The sums of one half of a pixel; call when nobody adds.
     FixedRgb sum(int half, int x, int y) const;
 

@@ -70,12 +70,18 @@ template <bool observed>
 class FilmRecord {
   public:
     FilmRecord(const FilmTargets& targets, WorkerSums& sums) : targets_(targets), sums_(sums) {}
+    FilmRecord(const FilmRecord&) = delete;
+    FilmRecord& operator=(const FilmRecord&) = delete;
+    ~FilmRecord() { add_waiting(); }
 
     void begin(int x, int y, std::uint64_t pass) {
         x_ = x;
         y_ = y;
         pass_ = pass;
-        for (auto& a : pixel_) a = {};
+        for (size_t i = 0; i < targets_.films->size(); ++i) {
+            pixel_[i] = {};
+            prefetch((*targets_.films)[i], x, y);
+        }
     }
 
     bool wants(const Strategy& k) const {
@@ -96,7 +102,7 @@ class FilmRecord {
     void splat(int x, int y, const Contribution& c) {
         if (!usable(c)) return;
         for (size_t i = 0; i < targets_.films->size(); ++i)
-            add((*targets_.films)[i], x, y, fixed(weighted(c, i)));
+            wait((*targets_.films)[i], x, y, fixed(weighted(c, i)));
         if constexpr (observed) observe(c, x, y);
     }
 
@@ -107,8 +113,34 @@ class FilmRecord {
     }
 
   private:
-    void add(Film& film, int x, int y, const FixedRgb& value) {
-        if (!film.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, value))
+    // A splat on its way to the film.
+    struct Waiting {
+        Film* film = nullptr;
+        int half = 0, x = 0, y = 0;
+        FixedRgb value;
+    };
+
+    void prefetch(const Film& film, int x, int y) {
+        film.prefetch(half(), x - targets_.crop.x0, y - targets_.crop.y0);
+    }
+
+    // Splats land anywhere in the film. They wait until the memory they go to has arrived.
+    void wait(Film& film, int x, int y, const FixedRgb& value) {
+        prefetch(film, x, y);
+        waiting_[waiting_count_++] = {&film, half(), x, y, value};
+        if (waiting_count_ == waiting_.size()) add_waiting();
+    }
+    void add_waiting() {
+        for (size_t i = 0; i < waiting_count_; ++i) {
+            const Waiting& w = waiting_[i];
+            add(*w.film, w.half, w.x, w.y, w.value);
+        }
+        waiting_count_ = 0;
+    }
+
+    void add(Film& film, int x, int y, const FixedRgb& value) { add(film, half(), x, y, value); }
+    void add(Film& film, int half, int x, int y, const FixedRgb& value) {
+        if (!film.add(half, x - targets_.crop.x0, y - targets_.crop.y0, value))
             ++sums_.fixed.overflow;
     }
 
@@ -161,6 +193,8 @@ class FilmRecord {
     int x_ = 0, y_ = 0;
     std::uint64_t pass_ = 0;
     std::array<FixedRgb, max_exponents> pixel_{};
+    std::array<Waiting, 16> waiting_;
+    size_t waiting_count_ = 0;
 };
 
 }  // namespace midway

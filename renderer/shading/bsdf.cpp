@@ -88,8 +88,17 @@ LobeChoice scaled(const LobeChoice& c, float by) {
     return {c.diffuse * by, c.specular * by, c.glass * by};
 }
 
+// sum_lobes() where there is Lambert's lobe alone, with the same bits.
+PairSums sum_diffuse(const Bsdf& b, const vec3& o, const vec3& i, bool reflects) {
+    if (!reflects || !b.has_diffuse()) return {};
+    const float mu_o = abs_dot(b.frame.n, o), mu_i = abs_dot(b.frame.n, i);
+    return {b.diffuse * (inv_pi * mu_i), cosine_hemisphere_pdf_w(mu_i),
+            cosine_hemisphere_pdf_w(mu_o)};
+}
+
 PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool front,
                    bool reflects) {
+    if (b.only_diffuse()) return sum_diffuse(b, o_world, i_world, reflects);
     const SideFrame side = side_frame(b, front);
     const bool light_front = front == reflects;
     const vec3 o = to_local(b, o_world, front);
@@ -120,6 +129,10 @@ PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool
 
 LobeChoice choose_lobes(const Bsdf& b, float z) {
     LobeChoice c;
+    if (b.only_diffuse()) {
+        c.diffuse = b.has_diffuse() ? 1.0f : 0.0f;
+        return c;
+    }
     const float mu = std::min(1.0f, z);
     if (b.has_diffuse()) c.diffuse = max_component(b.diffuse) * below_coat(b, mu);
     if (z > 0) {
