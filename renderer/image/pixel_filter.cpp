@@ -1,5 +1,7 @@
 #include "image/pixel_filter.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace midway {
@@ -31,16 +33,18 @@ struct AxisChoice {
 AxisChoice choose_on_axis(const PixelFilter& f, float x, float u) {
     const int first = static_cast<int>(std::ceil(x - f.radius - 0.5f));
     const int last = static_cast<int>(std::floor(x + f.radius - 0.5f));
+    // Rounding at both ends may let one pixel more in than the radius holds.
+    std::array<float, 5> weights;
+    const int count = std::min(last - first + 1, static_cast<int>(weights.size()));
     float sum = 0;
-    for (int j = first; j <= last; ++j) sum += filter_value(f, x - (j + 0.5f));
+    for (int j = 0; j < count; ++j) sum += weights[j] = filter_value(f, x - (first + j + 0.5f));
     if (!(sum > 0)) return {};
     float left = u * sum;
     int chosen = first;
-    for (int j = first; j <= last; ++j) {
-        const float w = filter_value(f, x - (j + 0.5f));
-        if (w > 0) chosen = j;
-        if (left < w) break;
-        left -= w;
+    for (int j = 0; j < count; ++j) {
+        if (weights[j] > 0) chosen = first + j;
+        if (left < weights[j]) break;
+        left -= weights[j];
     }
     return {chosen, sum};
 }

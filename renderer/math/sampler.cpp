@@ -1,10 +1,17 @@
 #include "math/sampler.h"
 
+#include <bit>
+
 namespace midway {
 namespace {
 
-constexpr std::uint32_t reverse_bits(std::uint32_t x) {
-    x = __builtin_bswap32(x);
+// Four dimensions at once; the functions below are written for both widths.
+typedef std::uint32_t Lanes __attribute__((vector_size(16)));
+
+template <class T>
+constexpr T reverse_bits(T x) {
+    x = (x << 16) | (x >> 16);
+    x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
     x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
     x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
     return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
@@ -12,7 +19,8 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
 
 // Hash in which bit i depends on bits 0..i alone: a nested uniform scramble of the reversed word
 // (Laine & Karras 2011; constants of Burley 2020).
-constexpr std::uint32_t scramble_reversed(std::uint32_t x, std::uint32_t seed) {
+template <class T>
+constexpr T scramble_reversed(T x, T seed) {
     x += seed;
     x ^= x * 0x6c50b47cu;
     x ^= x * 0xb82f1e52u;
@@ -65,12 +73,13 @@ Bits4 owen_sobol_4d(std::uint32_t index, std::uint64_t seed) {
     // Shuffling the index decorrelates the groups of one sample.
     const std::uint32_t shuffled =
         reverse_bits(scramble_reversed(reverse_bits(index), static_cast<std::uint32_t>(a)));
-    const auto finish = [](std::uint32_t reversed, std::uint64_t scramble) {
-        return reverse_bits(scramble_reversed(reversed, static_cast<std::uint32_t>(scramble)));
-    };
-    return {finish(shuffled, a >> 32), finish(reversed_sobol(tables[0], shuffled), b),
-            finish(reversed_sobol(tables[1], shuffled), b >> 32),
-            finish(reversed_sobol(tables[2], shuffled), c)};
+    const Lanes reversed = {shuffled, reversed_sobol(tables[0], shuffled),
+                            reversed_sobol(tables[1], shuffled),
+                            reversed_sobol(tables[2], shuffled)};
+    const Lanes scrambles = {
+        static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b),
+        static_cast<std::uint32_t>(b >> 32), static_cast<std::uint32_t>(c)};
+    return std::bit_cast<Bits4>(reverse_bits(scramble_reversed(reversed, scrambles)));
 }
 
 Bits4 sample_bits(const SampleKey& sample, std::uint32_t group) {

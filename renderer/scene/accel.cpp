@@ -58,8 +58,8 @@ void multiply_through(const RTCFilterFunctionNArguments* args) {
     args->valid[0] = 0;
 }
 
-RTCRay to_embree(const Ray& ray) {
-    RTCRay r{};
+// Fills Embree's ray where it stands: a copy would wait for its own stores.
+void fill_ray(RTCRay& r, const Ray& ray) {
     r.org_x = ray.origin.x;
     r.org_y = ray.origin.y;
     r.org_z = ray.origin.z;
@@ -68,8 +68,10 @@ RTCRay to_embree(const Ray& ray) {
     r.dir_z = ray.direction.z;
     r.tnear = 0;
     r.tfar = ray.tfar;
+    r.time = 0;
     r.mask = ~0u;
-    return r;
+    r.id = 0;
+    r.flags = 0;
 }
 
 }  // namespace
@@ -130,9 +132,10 @@ TriangleHit Accel::closest(const Ray& ray, const AlphaLookup& alpha, std::uint64
     init_context(&q.embree);
     q.alpha = &alpha;
     q.coin = coin;
-    RTCRayHit r{};
-    r.ray = to_embree(ray);
+    RTCRayHit r;
+    fill_ray(r.ray, ray);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if MIDWAY_EMBREE4
     RTCIntersectArguments args;
     rtcInitIntersectArguments(&args);
@@ -149,7 +152,8 @@ float Accel::transmittance(const Ray& ray, const AlphaLookup& alpha) const {
     Query q;
     init_context(&q.embree);
     q.alpha = &alpha;
-    RTCRay r = to_embree(ray);
+    RTCRay r;
+    fill_ray(r, ray);
 #if MIDWAY_EMBREE4
     RTCOccludedArguments args;
     rtcInitOccludedArguments(&args);
