@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "math/warp.h"
+#include "report/extreme.h"
+#include "shading/texture.h"
 #include "support/bsdfs.h"
 #include "support/scenes.h"
 #include "support/worker_mode.h"
@@ -139,6 +141,110 @@ TEST_F(History, PixelsDoNotShareTheirRandomNumbers) {
         for (size_t i = 1; i < firsts.size(); ++i) same += firsts[i] == firsts[i - 1];
         EXPECT_LT(same, 3);
     }
+}
+
+// Vertices far from the origin keep few digits; rays that leave them must not meet the surface they
+// left. Every pixel of a floor under the sun is known, and nothing is random but its place.
+TEST_F(History, LargeCoordinatesLeaveNoRings) {
+    for (const float far : {1e3f, 1e4f, 1e5f})
+        for (const bool in_the_node : {false, true}) {
+            const vec3 at = vec3(0.6f, -0.5f, 0.7f) * far;
+            dmat4 node(1.0);
+            if (in_the_node) node[3] = dvec4(dvec3(at), 1);
+            const vec3 corner = (in_the_node ? vec3(0) : at) + vec3(-2, 0, 2);
+            SceneDescription d;
+            add(d, make_quad(corner, {4, 0, 0}, {0, 0, -4}, 32), lambert(vec3(0.5f)), node);
+            d.lights.push_back(sun({0.8f, -1, 0.3f}, pi));
+            const float expected = 0.5f / std::sqrt(0.64f + 1 + 0.09f);
+            const CameraDescription camera =
+                look_at(camera_at({}, {0, 0, -1}, 0.3), dvec3(at) + dvec3(0.2, 2, 3), dvec3(at));
+            const Image image = render(std::make_shared<const Scene>([&] {
+                                           std::vector<std::string> mended;
+                                           return build_scene(d, mended);
+                                       }()),
+                                       camera, settings(Technique::path, 32, 1), 4);
+            for (const vec3& p : image.pixels)
+                EXPECT_NEAR(p.x, expected, 0.01f * expected) << far << in_the_node;
+        }
+}
+
+// A crop traces fewer light subpaths: n of eq. (22) is its own.
+TEST_F(History, CropKeepsTheWeightsOfLightTracing) {
+    SceneDescription d = floor_under(ceiling_lamp, lamp(vec3(2), vec3(0.5f)), dmat4(1.0));
+    const auto scene = build(d);
+    for (const Technique technique : {Technique::light, Technique::bdpt}) {
+        RenderSettings whole = settings(technique, 16, 3), piece = whole;
+        piece.crop = PixelRect{4, 5, 12, 9};
+        piece.seed = hash_combine(whole.seed, 99);
+        RunningMean a;
+        for (int i = 0; i < batches; ++i) {
+            RenderSettings s = whole;
+            s.seed = hash_combine(whole.seed, std::uint64_t(i));
+            const Image image = render(scene, floor_camera(), s, 32);
+            double sum = 0;
+            for (int y = 5; y < 9; ++y)
+                for (int x = 4; x < 12; ++x)
+                    sum += (double(image.at(x, y).x) + image.at(x, y).y + image.at(x, y).z) / 3;
+            a.add(sum / 32);
+        }
+        const Estimate whole_mean = a.estimate();
+        const Estimate piece_mean = batch_mean(scene, floor_camera(), piece, 128, batches);
+        EXPECT_LT(piece_mean.standard_error, 0.01 * whole_mean.mean);
+        expect_equal(whole_mean, piece_mean, alarm / 2);
+    }
+}
+
+TEST_F(History, PointLampInABoxHasNoPixelThatRunsAway) {
+    for (const ExtremeCase& c : extreme_cases()) {
+        if (c.name != "point_lamp_in_a_box") continue;
+        CaseContext context;
+        context.threads = 1;
+        context.effort = 0.25;
+        const CaseResult r = run_case(c, context);
+        EXPECT_TRUE(r.passed) << r.detail;
+        return;
+    }
+    FAIL() << "the case is gone";
+}
+
+TEST_F(History, FurnaceIsTheSameForEveryTechnique) {
+    SceneDescription d;
+    d.sky = constant_sky(vec3(1));
+    add(d, make_icosphere(vec3(0), 1, 2), lambert(vec3(0.5f)));
+    for (const Technique technique : every_technique) {
+        const Estimate e =
+            batch_mean(build(d), camera_at({0, 0, 3}, vec3(0), 0.3), settings(technique, 8, 4),
+                       technique == Technique::light ? 512 : 64, batches);
+        EXPECT_LT(e.standard_error, 0.005);
+        expect_equal(e, {0.5, 0}, alarm / 3);
+    }
+}
+
+// The share of drawn directions that cross a surface of several lobes is the integral of the
+// density over the far side.
+TEST_F(History, SampleAndPdfAgreeAboutTheLobes) {
+    for (const float transmission : {0.3f, 0.8f})
+        for (const Transport transport : {Transport::radiance, Transport::importance}) {
+            Material m = plastic(0.6f, {0.8f, 0.5f, 0.3f});
+            m.transmission = transmission;
+            m.metallic = 0.2f;
+            ShadingPoint p;
+            p.ng = p.normal = {0, 0, 1};
+            p.thin = true;
+            const Bsdf b = make_bsdf(m, {}, p);
+            const vec3 from = glm::normalize(vec3(0.5f, 0, 1));
+            Random random(31);
+            RunningMean drawn, integral;
+            for (int i = 0; i < 200'000; ++i) {
+                const auto s = sample_bsdf(b, from, random.next3(), transport);
+                drawn.add(s && s->to.z < 0 ? 1 : 0);
+                const vec3 to = square_to_sphere(random.next2());
+                integral.add(to.z < 0 ? eval_bsdf(b, from, to, transport).pdf_fwd_w / sphere_pdf_w
+                                      : 0.0f);
+            }
+            EXPECT_GT(drawn.mean, 0.05);
+            expect_equal(drawn.estimate(), integral.estimate(), alarm / 4);
+        }
 }
 
 }  // namespace

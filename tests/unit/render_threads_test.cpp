@@ -94,5 +94,33 @@ TEST(RenderThreads, DoNotMindASceneBuiltMeanwhile) {
     EXPECT_TRUE(alone == meanwhile);
 }
 
+// Four tiles of one view of a sky with texels smaller than a pixel: threads that shared a seed
+// would draw the same noise into several.
+TEST(RenderThreads, DoNotShareASeed) {
+    auto map = std::make_shared<Image>(512, 256);
+    for (size_t i = 0; i < map->pixels.size(); ++i)
+        map->pixels[i] = vec3(mix64(i) & 1 ? 1.0f : 0.0f);
+    SceneDescription d;
+    d.sky = constant_sky(vec3(1));
+    d.sky->map = map;
+    const auto scene = build(d);
+    const RenderSettings s = settings(Technique::path, 64, 1);
+    const auto image = [&](int threads) {
+        ProgressiveRenderer renderer(scene, camera_at(vec3(0), {0, 0, -1}, 1.5), s,
+                                     {.threads = threads});
+        renderer.render_passes(1);
+        return renderer.image();
+    };
+    const Image together = image(4);
+    EXPECT_EQ(together.pixels, image(1).pixels);
+    const Estimator e = make_estimator(*scene, {}, s);
+    int same = 0;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x)
+            same +=
+                sample_4d(camera_key(e, x, y, 0), 0) == sample_4d(camera_key(e, x + 32, y, 0), 0);
+    EXPECT_EQ(same, 0);
+}
+
 }  // namespace
 }  // namespace midway::test
