@@ -148,7 +148,7 @@ CaseResult lossless_glass(const CaseContext& context) {
         for (const Technique technique : {Technique::path, Technique::bdpt}) {
             Setup s = furnace(body.name, technique, outside());
             for (const auto& [mesh, material] : body.parts) add(s.scene, mesh, material);
-            judge.known(body.name + ", " + label(s.settings), mean_over_seeds(s, context, {8, 16}),
+            judge.known(body.name + ", " + label(s.settings), mean_over_seeds(s, context, {32, 16}),
                         1, 1e-3);
         }
     return judge.result();
@@ -182,7 +182,7 @@ CaseResult camera_inside(const CaseContext& context) {
         // Radiance in glass is n^2 times that in air.
         Setup s = furnace("camera in glass", technique, camera_at(c, {0.3f, 0, 1}, 1.0));
         add(s.scene, make_icosphere(c, 0.5f, 3), solid_glass(0, 1.5f));
-        judge.known("in glass, " + label(s.settings), mean_over_seeds(s, context, {8, 16}), 2.25,
+        judge.known("in glass, " + label(s.settings), mean_over_seeds(s, context, {32, 16}), 2.25,
                     1e-3);
         // Le + a L all around.
         Setup l{"camera in a lamp",

@@ -133,6 +133,10 @@ CaseResult walls_close_together(const CaseContext& context) {
     for (const Technique technique : {Technique::path, Technique::light, Technique::bdpt}) {
         const auto setup = [&](bool lit, bool hidden) {
             Setup s = floor_setup("walls 1e-5 apart", settings(technique, 8, 3));
+            // What came through would light a ceiling.
+            if (hidden && !lit)
+                add(s.scene, make_quad({-0.5f, 0.4f, -0.5f}, {1, 0, 0}, {0, 0, 1}),
+                    lambert(vec3(0.9f)));
             if (hidden)
                 add(s.scene, make_quad({-0.4f, -1e-5f, 0.4f}, {0.8f, 0, 0}, {0, 0, -0.8f}),
                     lamp(vec3(100), vec3(0.5f)));
