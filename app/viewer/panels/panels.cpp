@@ -7,7 +7,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 15> table = {{
+constexpr std::array<Panel, 16> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
@@ -20,6 +20,7 @@ constexpr std::array<Panel, 15> table = {{
     {"messages", draw_messages},
     {"status", draw_status},
     {"overlays", draw_overlays},
+    {"inspector", draw_inspector},
     {"gallery", draw_gallery},
     {"keys", draw_keys},
     {"tour", draw_tour},

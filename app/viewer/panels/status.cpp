@@ -115,7 +115,7 @@ void draw_cells(App& app) {
 Change draw_status(App& app) {
     if (!app.ui.panels) return {};
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float top = app.ui.view.upper.y;
+    const float top = app.ui.panel.dock[3];
     ImGui::SetNextWindowPos({0, top});
     ImGui::SetNextWindowSize({size.x, size.y - top});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui::em(0.7f), ui::em(0.15f)});
