@@ -21,7 +21,7 @@ vec4 colour_of(const PathLine& line) {
     const theme::Color& c = line.kind == LineKind::camera  ? theme::camera
                             : line.kind == LineKind::light ? theme::light
                                                            : theme::rgb(0xffffff);
-    const float alpha = line.picked ? (line.hidden ? 0.6f : 1.0f) : (line.hidden ? 0.35f : 0.7f);
+    const float alpha = line.picked ? (line.hidden ? 0.75f : 1.0f) : (line.hidden ? 0.35f : 0.7f);
     return {c.x, c.y, c.z, alpha};
 }
 
@@ -50,7 +50,7 @@ void add_line(const PathLine& line, const ImageLine& at, float em, std::vector<C
     const float half = em * (line.picked ? 0.11f : 0.05f);
     // Room for the dark rim and for soft edges.
     const float wide = half + 0.1f * em + 1;
-    const float dash = line.hidden ? 0.7f * em : 0;
+    const float dash = line.hidden ? 0.9f * em : 0;
     const auto corner = [&](bool end, float side) {
         return Corner{(end ? at.b : at.a) + across * (side * wide),
                       {end ? length : 0, side * wide},

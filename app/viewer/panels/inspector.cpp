@@ -85,8 +85,8 @@ void draw_name(const PathMark& mark, vec2 at, const theme::Color& color, Names& 
     names.push_back(box);
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.AddRectFilled({box.lower.x, box.lower.y}, {box.upper.x, box.upper.y},
-                       theme::color(theme::rgb(0), 0.5f), em(0.2f));
-    draw.AddText({at.x, at.y}, theme::color(color, mark.hidden ? 0.75f : 1), mark.name.c_str());
+                       theme::color(theme::rgb(0), 0.65f), em(0.2f));
+    draw.AddText({at.x, at.y}, theme::color(color), mark.name.c_str());
 }
 
 void draw_mark(const App& app, const PathMark& mark, Names& names) {

@@ -92,6 +92,7 @@ std::string what_is_at(const InspectedVertex& v) {
 
 std::string scattering_of(const InspectedVertex& v) {
     if (v.kind != VertexKind::surface) return "";
+    if (v.black) return v.shines ? "only shines" : "black";
     if (v.delta || !v.connectible) return "smooth";
     if (v.roughness >= 1) return "diffuse";
     return fmt::format("rough {:.2g}", v.roughness);
@@ -267,6 +268,8 @@ void draw_path_list(const Inspection& inspection, int& picked) {
         const InspectedPath& p = inspection.sample.paths[static_cast<size_t>(k)];
         const bool elsewhere = p.x != inspection.watched.x || p.y != inspection.watched.y;
         ImGui::TableNextRow();
+        if (picked == k)
+            ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, theme::color(theme::text, 0.14f));
         ImGui::TableNextColumn();
         ImGui::PushID(k);
         if (ImGui::Selectable("##pick", picked == k, ImGuiSelectableFlags_SpanAllColumns))
