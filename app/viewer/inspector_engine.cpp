@@ -169,8 +169,8 @@ void follow_job(App& app, InspectEngine& workers, const SubmittedJob& job) {
         workers.sampler.cancel();
         s.progress.reset();
     }
-    if (new_job && (workers.path != job.prepared->options.path ||
-                    !same_pixels(was.settings, job.settings))) {
+    if (new_job &&
+        (workers.path != job.prepared->options.path || !same_pixels(was.settings, job.settings))) {
         forget(s, workers);
         return;
     }
@@ -216,9 +216,16 @@ InspectEngine::InspectEngine(const std::function<void()>& wake)
           },
           wake) {}
 
-bool collect_inspection(App& app, InspectEngine& workers) {
+bool collect_inspection(App& app, Engine& engine) {
     InspectorState& s = app.ui.panel.inspector;
+    InspectEngine& workers = engine.inspector;
     bool visible = false;
+    if (const SubmittedJob* job = shown_job(app, engine); job && !app.snapshot->images.empty()) {
+        s.normalisation = job->prepared->scene->geometry->normalisation;
+        s.camera = make_camera(job->prepared->camera, s.normalisation, job->settings.width,
+                               job->settings.height);
+        s.passes = app.snapshot->scale == 1 ? app.snapshot->passes : 0;
+    }
     if (std::optional<InspectNews> news = workers.sampler.take();
         news && news->wish == s.wish.number) {
         visible = true;
@@ -250,10 +257,6 @@ void follow_inspection(App& app, Engine& engine) {
     }
     const SubmittedJob* job = shown_job(app, engine);
     if (!job || app.snapshot->images.empty()) return;
-    s.normalisation = job->prepared->scene->geometry->normalisation;
-    s.camera = make_camera(job->prepared->camera, s.normalisation, job->settings.width,
-                           job->settings.height);
-    s.passes = app.snapshot->scale == 1 ? app.snapshot->passes : 0;
     if (std::exchange(s.stop_search, false) && s.progress) {
         workers.sampler.cancel();
         s.progress.reset();

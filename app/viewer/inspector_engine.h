@@ -54,8 +54,9 @@ struct InspectEngine {
     std::uint64_t sight_job = 0;
 };
 
-// Brings in what the workers have found; true where something looks different.
-bool collect_inspection(App& app, InspectEngine& workers);
+// Brings in what the workers have found, and from where the image is seen that is shown now; true
+// where something looks different.
+bool collect_inspection(App& app, Engine& engine);
 
 // Asks them for what the panel wants of the image that is shown. An inspected sample outlives a
 // move of the camera (it stays where it is in space); after any other change the same sample of the

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "panels/parts.h"
+
 namespace midway {
 namespace {
 
@@ -54,9 +56,7 @@ void inspect_by_script(const std::vector<std::string>& words, App& app) {
     } else if (what == "brightest") {
         wish_for(s, Find::brightest_pixel, s.wish.pixel, 0);
     } else if (what == "nonfinite") {
-        if (!app.snapshot || app.snapshot->statistics.nonfinite.count == 0) refuse(what);
-        const NonFinite& n = app.snapshot->statistics.nonfinite;
-        wish_for(s, Find::sample, {n.x, n.y}, n.pass);
+        if (!inspect_nonfinite(app)) refuse(what);
     } else {
         wish_for_pixel(what, s);
     }

@@ -48,18 +48,19 @@ TEST(NewestWorker, AnswersTheNewestAndForgetsTheRest) {
 }
 
 TEST(NewestWorker, NothingComesOfWhatWasCancelledAndTheEndWaitsForNoSearch) {
-    std::atomic<bool> began = false;
+    std::atomic<bool> began = false, ended = false;
     NewestWorker<int, int> worker(
         [&](const int&, const RenderControl& control, const auto& publish) {
             began = true;
             while (control.go_on()) std::this_thread::yield();
             publish(1);
+            ended = true;
         },
         [] {});
     worker.submit(1);
     while (!began) std::this_thread::yield();
     worker.cancel();
-    while (worker.busy()) std::this_thread::yield();
+    while (!ended) std::this_thread::yield();
     EXPECT_FALSE(worker.take());
     worker.submit(2);
 }

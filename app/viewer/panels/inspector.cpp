@@ -191,11 +191,10 @@ void draw_search(App& app) {
                         "sample that made it so: the firefly"))
         wish_for(s, Find::brightest_pixel, s.wish.pixel, 0);
     if (!app.snapshot || app.snapshot->statistics.nonfinite.count == 0) return;
-    const NonFinite& n = app.snapshot->statistics.nonfinite;
     ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, theme::error);
     if (ui::wide_button("Not finite", "Goes to the first sample whose value was not a number"))
-        wish_for(s, Find::sample, {n.x, n.y}, n.pass);
+        inspect_nonfinite(app);
     ImGui::PopStyleColor();
 }
 
@@ -233,11 +232,11 @@ void draw_tables(InspectorState& s) {
     const auto child = [&](const char* id, float share) {
         ImGui::BeginChild(id, {share > 0 ? std::floor(all * share) : 0, 0});
     };
-    child("##walked", 0.37f);
+    child("##walked", 0.35f);
     draw_vertex_table(i, picked);
     ImGui::EndChild();
     ImGui::SameLine();
-    child("##found", 0.23f);
+    child("##found", 0.255f);
     if (i.sample.paths.empty())
         ui::wrapped(theme::text_dim, "This sample found no light: it gave the image nothing.");
     else
@@ -304,6 +303,16 @@ void draw_button(App& app) {
 void inspect_pixel(App& app, ivec2 pixel) {
     InspectorState& s = app.ui.panel.inspector;
     wish_for(s, Find::sample, pixel, s.shown && !s.shown->searched ? s.shown->sample.pass : 0);
+}
+
+bool inspect_nonfinite(App& app) {
+    // Places in a coarse image are none of the image's own.
+    if (!app.snapshot || app.snapshot->scale != 1) return false;
+    const NonFinite& n = app.snapshot->statistics.nonfinite;
+    if (n.count == 0) return false;
+    app.ui.panel.navigation.tool = ViewTool::inspect;
+    wish_for(app.ui.panel.inspector, Find::sample, {n.x, n.y}, n.pass);
+    return true;
 }
 
 Change draw_inspector(App& app) {

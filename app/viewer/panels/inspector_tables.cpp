@@ -285,7 +285,8 @@ void draw_path_list(const Inspection& inspection, int& picked) {
             !p.usable   ? theme::error
             : elsewhere ? theme::text_dim
                         : theme::text,
-            "%s", elsewhere ? fmt::format("{} to {}, {}", words, p.x, p.y).c_str() : words.c_str());
+            "%s",
+            elsewhere ? fmt::format("{} \u2192 {}, {}", words, p.x, p.y).c_str() : words.c_str());
         const float light = luminance(given(inspection, p));
         bar_cell(most > 0 ? light / most : 0, color_of(family_of(p.contribution.strategy)),
                  p.usable ? short_value(light) : "not finite");

@@ -40,6 +40,7 @@ Change store_bookmark(App& app);
 Change recall_bookmark(App& app, int index);
 void choose_tool(App& app, ViewTool tool);  // again: puts it away
 void inspect_pixel(App& app, ivec2 pixel);  // of the whole image: its first sample, or as before
+bool inspect_nonfinite(App& app);           // the first sample that was; false where there is none
 
 // Where the camera is, and where it shall be.
 View current_view(const App& app);

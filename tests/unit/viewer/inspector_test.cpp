@@ -180,6 +180,17 @@ TEST_F(InspectorAtWork, FindsTheBrightestSampleOfAPixel) {
     EXPECT_TRUE(state().shown || !state().note.empty());
 }
 
+TEST_F(InspectorAtWork, GoesToTheSampleThatWasNotFinite) {
+    render({.settings = true});
+    EXPECT_FALSE(inspect_nonfinite(app)) << "there is none";
+    Snapshot snapshot = *app.snapshot;
+    snapshot.statistics.nonfinite.add(40, 7, 2);
+    app.snapshot = std::make_shared<const Snapshot>(snapshot);
+    EXPECT_TRUE(inspect_nonfinite(app));
+    ASSERT_TRUE(turn_until([&] { return inspected(app, engine); }));
+    EXPECT_EQ(std::tuple(sample().x, sample().y, sample().pass), std::tuple(40, 7, 2u));
+}
+
 // A wall between the eye and a part of a line.
 TEST(PathLines, AreCutWhereSomethingHidesThem) {
     SceneDescription d;
