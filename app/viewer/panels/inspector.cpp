@@ -58,12 +58,13 @@ void draw_hover(const App& app) {
     ImGui::TextColored(theme::text_dim, "pixel %d, %d", pixel->x, pixel->y);
     ImGui::Text("RGB  %s  %s  %s", short_value(v.x).c_str(), short_value(v.y).c_str(),
                 short_value(v.z).c_str());
-    std::string error = "error not known yet";
+    ImGui::Text("luminance  %s", short_value(light).c_str());
+    std::string error = "not known yet";
     if (facts->error)
-        error = light > 0 ? fmt::format("+- {} ({:.2g} %)", short_value(*facts->error),
+        error = light > 0 ? fmt::format("± {} ({:.2g} %)", short_value(*facts->error),
                                         100 * *facts->error / light)
-                          : fmt::format("+- {}", short_value(*facts->error));
-    ImGui::Text("luminance  %s  %s", short_value(light).c_str(), error.c_str());
+                          : fmt::format("± {}", short_value(*facts->error));
+    ImGui::Text("estimated error  %s", error.c_str());
     const Snapshot& s = *app.snapshot;
     if (s.scale == 1)
         ImGui::TextColored(theme::text_dim, "%llu samples",
