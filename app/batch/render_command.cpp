@@ -10,9 +10,9 @@
 #include "outputs.h"
 #include "progress.h"
 #include "render/coverage.h"
-#include "render/debug_sample.h"
 #include "render/waves.h"
 #include "render_options.h"
+#include "sample_output.h"
 #include "session_options.h"
 
 namespace midway {
@@ -72,19 +72,6 @@ void finish_command(RenderCommand& c) {
     c.renderer.statistics = c.outputs.stats.has_value();
 }
 
-void print_sample(const Estimator& e, const DebugSample& d) {
-    fmt::print("pixel {},{} sample {} light subpath {}\n", d.x, d.y, d.pass, d.light_subpath);
-    for (const DebugContribution& c : d.contributions) {
-        const Contribution& k = c.contribution;
-        fmt::print("  {} value {:.9g} {:.9g} {:.9g}", describe(k.strategy), k.value.x, k.value.y,
-                   k.value.z);
-        for (int i = 0; i < e.exponent_count; ++i)
-            fmt::print("  weight({:g}) {:.9g}", e.exponents[i], k.weights[i]);
-        if (c.splat) fmt::print("  splat to {},{}", c.x, c.y);
-        fmt::print("\n");
-    }
-}
-
 int debug(const RenderCommand& c, const PreparedScene& p) {
     const Estimator e = make_estimator(*p.scene, p.camera, c.settings);
     const auto x = static_cast<int>(c.debug_pixel[0]), y = static_cast<int>(c.debug_pixel[1]);
@@ -92,7 +79,7 @@ int debug(const RenderCommand& c, const PreparedScene& p) {
         throw std::invalid_argument(
             fmt::format("pixel outside of the image ({},{}); the image is {}x{}", x, y,
                         c.settings.width, c.settings.height));
-    print_sample(e, replay_sample(e, x, y, c.debug_pixel[2]));
+    print_sample(inspect_sample({p.scene, p.camera, c.settings}, x, y, c.debug_pixel[2]));
     return exit_done;
 }
 

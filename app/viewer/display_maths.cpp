@@ -35,10 +35,8 @@ std::shared_ptr<const Image> relative_error(const Image& image, const Image& var
         static_cast<float>(0.01 * sum / double(std::max<size_t>(1, image.pixels.size())));
     auto error = std::make_shared<Image>(image.width, image.height);
     for (size_t i = 0; i < image.pixels.size(); ++i) {
-        // As if the three errors were one: they are nearly, a sample being too bright in all.
-        const vec3 sigma = glm::sqrt(glm::max(variance.pixels[i], vec3(0)));
-        error->pixels[i] =
-            vec3(luminance(sigma) / std::max(luminance(image.pixels[i]) + floor, 1e-30f));
+        error->pixels[i] = vec3(luminance_error(variance.pixels[i]) /
+                                std::max(luminance(image.pixels[i]) + floor, 1e-30f));
     }
     return error;
 }
@@ -109,6 +107,11 @@ void show_samples(const Snapshot& s, ShownImage& shown) {
 }
 
 }  // namespace
+
+float luminance_error(const vec3& variance) {
+    // As if the three errors were one: they are nearly, a sample being too bright in all.
+    return luminance(glm::sqrt(glm::max(variance, vec3(0))));
+}
 
 std::span<const vec3> stop_ramp() { return ramp; }
 

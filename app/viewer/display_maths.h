@@ -36,6 +36,9 @@ ShownImage shown_image(const App& app);
 vec3 shown_colour(const DisplayMaths& maths, const vec3& value);
 Image shown_colours(const ShownImage& shown);
 
+// Standard error of a pixel's luminance, given the variance of its colours.
+float luminance_error(const vec3& variance);
+
 // Range of the scales that the channels `error` and `samples` are shown on.
 inline constexpr vec2 error_stops{-10, 1}, sample_stops{0, 16};
 

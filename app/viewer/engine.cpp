@@ -157,6 +157,7 @@ News collect(App& app, Engine& engine) {
     }
     news.visible |= take_status(app, engine);
     news.visible |= take_images(app, engine);
+    news.visible |= collect_inspection(app, engine);
     while (std::optional<TaskResult> done = engine.tasks.take()) {
         news.visible = true;
         if (!done->error.empty()) app.document.error = done->error;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 
+#include "inspector_engine.h"
 #include "render/loader.h"
 #include "state.h"
 #include "tasks.h"
@@ -30,6 +31,7 @@ struct Engine {
     Loader loader{[this] { waker.wake(); }};
     SceneUpdater updater{[this] { waker.wake(); }};
     Tasks tasks{[this] { waker.wake(); }};
+    InspectEngine inspector{[this] { waker.wake(); }};
 
     std::deque<SubmittedJob> jobs;             // the last few, oldest first
     RenderChoices applied;                     // to the newest job

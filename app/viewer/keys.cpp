@@ -85,6 +85,14 @@ Change tool(App& app, ViewTool t) {
     return {};
 }
 
+Change inspect_brightest(App& app) {
+    if (!app.document.prepared) return {};
+    InspectorState& s = app.ui.panel.inspector;
+    app.ui.panel.navigation.tool = ViewTool::inspect;
+    wish_for(s, Find::brightest_pixel, s.wish.pixel, 0);
+    return {};
+}
+
 template <typename T>
 Change toggle(T& value) {
     value = !value;
@@ -121,6 +129,9 @@ const auto bindings = std::to_array<KeyBinding>({
     {how, GLFW_KEY_P, 0, "P", "exponent 2: power", [](A a) { return choose_exponent(a, 2); }},
     {how, GLFW_KEY_M, 0, "M", "same paths for all",
      [](A a) { return choose_same_paths(a, !a.render.same_paths); }},
+    {how, GLFW_KEY_I, 0, "I", "inspect: then click a pixel",
+     [](A a) { return tool(a, ViewTool::inspect); }},
+    {how, GLFW_KEY_I, with_shift, "Shift+I", "inspect the brightest sample", inspect_brightest},
     {seen, GLFW_KEY_RIGHT_BRACKET, 0, "] and [", "half a stop brighter, darker",
      [](A a) { return expose(a, 0.5f); }},
     {seen, GLFW_KEY_LEFT_BRACKET, 0, "", "", [](A a) { return expose(a, -0.5f); }},
@@ -150,7 +161,7 @@ const auto bindings = std::to_array<KeyBinding>({
      [](A a) { return recall_bookmark(a, a.ui.panel.navigation.bookmark + 1); }},
     {run, GLFW_KEY_SPACE, 0, "Space", "pause, go on", pause},
     {run, GLFW_KEY_R, 0, "R", "begin again", restart},
-    {run, GLFW_KEY_I, 0, "I", "region: then drag it",
+    {run, GLFW_KEY_R, with_shift, "Shift+R", "region: then drag it",
      [](A a) { return tool(a, ViewTool::region); }},
     {run, GLFW_KEY_O, with_ctrl, "Ctrl+O", "open a file by its path", type_path},
     {run, GLFW_KEY_G, 0, "G", "gallery of scenes", [](A a) { return toggle(a.ui.gallery); }},

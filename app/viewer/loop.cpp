@@ -116,6 +116,7 @@ void draw(Loop& l, const std::string& screenshot) {
     const Display::Target target = l.host.target();
     const ImVec4 surround = theme::surround;
     l.display.draw(l.app, target, {surround.x, surround.y, surround.z});
+    l.lines.draw(l.app, target);
     l.painter.draw(*ImGui::GetDrawData(), target.size);
     if (!screenshot.empty())
         write_png_bytes(screenshot, target.size.x, target.size.y, read_pixels(*l.host.gl, target));
@@ -164,6 +165,7 @@ void frame(Loop& l, Change change) {
     apply(l.app, l.engine, step.change, began);
     change |= step.change;
     act(l);
+    follow_inspection(l.app, l.engine);
     if (change.any()) l.frames_due = std::max(l.frames_due, 2);
 
     update_image(l);
@@ -185,6 +187,7 @@ Loop make_loop(App& app, Engine& engine, const Host& host) {
             .engine = engine,
             .host = host,
             .display = Display(*host.gl),
+            .lines = LinePainter(*host.gl),
             .painter = PanelPainter(*host.gl)};
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine.h"
+#include "gl_lines.h"
 #include "gl_panels.h"
 #include "host.h"
 #include "remember.h"
@@ -28,6 +29,7 @@ struct Loop {
     LoopOptions options;
 
     Display display;
+    LinePainter lines;
     PanelPainter painter;
     ShownImage shown;
 

@@ -28,6 +28,59 @@ Json summary(const std::vector<float>& values) {
             {"max", *std::max_element(values.begin(), values.end())}};
 }
 
+Json strategies_json(const Inspection& i, const InspectedPath& path) {
+    Json list = Json::array();
+    for (const InspectedStrategy& s : path.strategies)
+        list.push_back({{"s", s.strategy.s},
+                        {"t", s.strategy.t},
+                        {"feasible", s.feasible},
+                        {"log10_pdf", s.feasible ? Json(s.log10_pdf) : Json()},
+                        {"weight", s.weights[i.exponent]},
+                        {"direct", s.direct[i.exponent]}});
+    return list;
+}
+
+Json vertices_json(const std::vector<InspectedVertex>& vertices) {
+    Json list = Json::array();
+    for (const InspectedVertex& v : vertices)
+        list.push_back({{"kind", to_string(v.kind)},
+                        {"object", v.object_name},
+                        {"material", v.material_name},
+                        {"position", {v.position.x, v.position.y, v.position.z}},
+                        {"delta", v.delta}});
+    return list;
+}
+
+Json inspector_json(const InspectorState& s) {
+    Json j{{"searching", s.progress.has_value()},
+           {"note", s.note},
+           {"camera_moved", s.camera_moved},
+           {"picked", s.picked}};
+    if (s.drawing)
+        j["lines"] = {{"visible", std::count_if(s.drawing->lines.begin(), s.drawing->lines.end(),
+                                                [](const PathLine& l) { return !l.hidden; })},
+                      {"all", s.drawing->lines.size()}};
+    if (!s.shown) return j;
+    const Inspection& i = *s.shown;
+    const vec3 gave = recorded_in(i.sample, i.watched.x, i.watched.y)[i.exponent];
+    j["pixel"] = {i.watched.x, i.watched.y};
+    j["sample"] = {i.sample.x, i.sample.y, i.sample.pass};
+    j["exponent"] = i.sample.exponents[i.exponent];
+    j["gave"] = {gave.x, gave.y, gave.z};
+    j["camera"] = vertices_json(i.sample.camera);
+    j["light"] = vertices_json(i.sample.light);
+    j["paths"] = Json::array();
+    for (const int k : i.order) {
+        const InspectedPath& p = i.sample.paths[static_cast<size_t>(k)];
+        const vec3 v = given(i, p);
+        j["paths"].push_back({{"strategy", describe(p.contribution.strategy)},
+                              {"pixel", {p.x, p.y}},
+                              {"gave", {v.x, v.y, v.z}},
+                              {"strategies", strategies_json(i, p)}});
+    }
+    return j;
+}
+
 }  // namespace
 
 Mark mark_now(App& app) {
@@ -70,6 +123,8 @@ void write_report(const std::string& path, const App& app, const Mark& mark) {
         j["rays_closest"] = s.statistics.rays.closest;
         j["rays_shadow"] = s.statistics.rays.shadow;
     }
+    if (app.ui.panel.navigation.tool == ViewTool::inspect)
+        j["inspector"] = inspector_json(app.ui.panel.inspector);
     atomic_write(path, j.dump(2) + "\n");
 }
 

@@ -12,6 +12,7 @@
 #include "files.h"
 #include "image/file.h"
 #include "script_input.h"
+#include "script_inspect.h"
 #include "script_set.h"
 
 namespace midway {
@@ -26,13 +27,13 @@ struct Verb {
     const char* name;
     size_t least, most;  // words after it
 };
-constexpr Verb verbs[] = {{"open", 1, 1},       {"set", 2, 2},     {"camera", 2, 3},
-                          {"key", 1, 1},        {"type", 1, 1},    {"move", 2, 2},
-                          {"click", 2, 3},      {"drag", 4, 5},    {"scroll", 3, 3},
-                          {"drop", 1, 1},       {"resize", 1, 1},  {"wait", 1, 2},
-                          {"screenshot", 1, 1}, {"save", 1, 1},    {"save-session", 1, 1},
-                          {"copy", 1, 1},       {"report", 1, 1},  {"mark", 0, 0},
-                          {"reload", 0, 0},     {"timeout", 1, 1}, {"quit", 0, 0}};
+constexpr Verb verbs[] = {
+    {"open", 1, 1},       {"set", 2, 2},     {"camera", 2, 3},       {"key", 1, 1},
+    {"type", 1, 1},       {"move", 2, 2},    {"click", 2, 3},        {"drag", 4, 5},
+    {"scroll", 3, 3},     {"drop", 1, 1},    {"resize", 1, 1},       {"wait", 1, 2},
+    {"screenshot", 1, 1}, {"save", 1, 1},    {"save-session", 1, 1}, {"copy", 1, 1},
+    {"report", 1, 1},     {"mark", 0, 0},    {"reload", 0, 0},       {"timeout", 1, 1},
+    {"quit", 0, 0},       {"inspect", 1, 2}, {"hands", 1, 1}};
 
 std::vector<std::string> words_of(const std::string& line) {
     std::vector<std::string> words;
@@ -93,6 +94,7 @@ bool has_come(const ScriptPlayer& p, const std::vector<std::string>& w, const Ap
                (engine.jobs.empty() ||
                 (newest_shown(app, engine) && app.snapshot->scale == 1 &&
                  (app.snapshot->finished || app.snapshot->paused || !app.snapshot->error.empty())));
+    if (what == "inspected") return newest_shown(app, engine) && inspected(app, engine);
     throw std::invalid_argument("cannot wait for \"" + what + "\"");
 }
 
@@ -173,6 +175,8 @@ ScriptStep carry_out(ScriptPlayer& p, const std::vector<std::string>& w, App& ap
         step.change = move_camera(w, app);
     else if (verb == "resize")
         resize(w[1], host);
+    else if (verb == "inspect")
+        inspect_by_script({w.begin() + 1, w.end()}, app);
     else if (verb == "copy")
         copy(w[1], app, engine);
     else if (verb == "screenshot")
@@ -183,6 +187,8 @@ ScriptStep carry_out(ScriptPlayer& p, const std::vector<std::string>& w, App& ap
         step.mark = true;
     else if (verb == "timeout")
         p.timeout = number(w[1]);
+    else if (verb == "hands")
+        p.hands = w[1] != "off";
     else if (verb == "quit")
         step.quit = true;
     else

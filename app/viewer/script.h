@@ -6,15 +6,18 @@
 //   move X Y             click X Y [right|double]          drag X0 Y0 X1 Y1 [right|middle]
 //   scroll X Y STEPS     drop FILE                         resize WIDTHxHEIGHT
 //   wait loaded | image | spp N | idle | saved | reload | seconds X
-//        | frames N
+//        | frames N | inspected
+//   inspect X,Y[,SAMPLE|,brightest] | brightest | nonfinite | path N | off
 //   screenshot F.png     save F.exr|F.png                  save-session F.midway
 //   copy F.txt           report F.json                     mark        reload
-//   timeout SECONDS      quit
+//   timeout SECONDS      hands on|off                      quit
 //
 // Each action takes at least one frame of the window. `wait` fails after the timeout (120 s at
 // first). `mark` starts the measurements of `report` anew. `orbit` turns by degrees, `look` too,
-// `dolly` scales the distance to the pivot. A line that cannot be carried out ends the window with
-// exit status 1 and one line that names it.
+// `dolly` scales the distance to the pivot. `inspect` opens the path inspector on a pixel of the
+// image; `path N` picks the N-th of its list, from 0 on; `wait inspected` until all is there. After
+// `hands off` mouse and keys are the desktop's. A line that cannot be carried out ends the window
+// with exit status 1 and one line that names it.
 #pragma once
 
 #include <deque>
@@ -58,6 +61,7 @@ struct ScriptPlayer {
     std::shared_ptr<const PreparedScene> scene_then;  // when the wait began
     std::deque<InputStep> input;
     vec2 mouse{0};
+    bool hands = true;  // false: mouse and keys are left to the desktop
 };
 
 inline bool playing(const ScriptPlayer& p) { return p.next < p.lines.size() || !p.input.empty(); }

@@ -112,6 +112,7 @@ void add_input(ScriptPlayer& p, const std::vector<std::string>& w) {
 }
 
 void give_input(ScriptPlayer& p) {
+    if (!p.hands && p.input.empty()) return;
     ImGuiIO& io = ImGui::GetIO();
     InputStep step;
     if (!p.input.empty()) {

@@ -11,6 +11,7 @@
 
 #include "viewer/camera_control.h"
 #include "viewer/gallery.h"
+#include "viewer/inspector_state.h"
 
 namespace midway {
 
@@ -23,8 +24,8 @@ struct Arrangement {
     std::map<std::string, bool> sections;  // open or closed, by title; absent: as by default
 };
 
-// What a click or a drag of the left button in the view does.
-enum class ViewTool { orbit, focus, region };
+// What a click or a drag of the left button in the view does; with `inspect` a drag still orbits.
+enum class ViewTool { orbit, focus, region, inspect };
 
 enum class Gesture { none, orbit, pan, dolly, fly, region, image_pan };
 
@@ -34,7 +35,8 @@ struct Navigation {
     Gesture gesture = Gesture::none;
     dvec2 mouse{0};               // at the last frame, in image pixels
     dvec3 held{0};                // the point that a pan keeps under the mouse
-    dvec2 region_start{0};        // image pixels
+    dvec2 region_start{0};        // where the gesture began, image pixels
+    bool dragged = false;         // the mouse has moved since
     DollyGlide wheel;             // what the wheel still has to do
     std::optional<ViewGlide> to;  // on the way to a view
     dvec3 velocity{0};
@@ -78,6 +80,8 @@ struct PanelState {
     // Left, top, right and bottom of the sections as drawn last, by title.
     std::map<std::string, std::array<float, 4>> section_places;
     std::string open_section;  // being drawn
+    InspectorState inspector;
+    std::array<float, 4> dock{};  // left, top, right and bottom of what lies below the view
 };
 
 }  // namespace midway

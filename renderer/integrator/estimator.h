@@ -89,6 +89,15 @@ void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_
     }
 }
 
+// Whether a camera walk has nothing left to find behind its vertex of that number.
+inline bool has_found_all(const Estimator& e, int index) {
+    // Without emitter hits the last edge would find nothing.
+    const bool last = index == e.max_bounces && !e.families.emitter_hit;
+    const bool only_lamps =
+        !e.families.emitter_hit && !e.families.next_event && !e.families.connection;
+    return last || only_lamps;
+}
+
 // Walks the camera subpath and forms every strategy that ends on it.
 template <class Record>
 void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
@@ -113,11 +122,7 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
                 if (const auto c = connect(e, v, l, rays)) record.contribution(*c);
             }
         }
-        // Without emitter hits the last edge would find nothing.
-        const bool last = walk.index == e.max_bounces && !e.families.emitter_hit;
-        const bool only_lamps =
-            !e.families.emitter_hit && !e.families.next_event && !e.families.connection;
-        if (last || only_lamps || !scatter(walk)) return;
+        if (has_found_all(e, walk.index) || !scatter(walk)) return;
     }
 }
 

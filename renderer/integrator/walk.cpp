@@ -108,6 +108,7 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
     w.throughput = s->weight;
     w.roulette_reference = max_component(s->weight);
     w.cos_previous = s->cos_theta;
+    w.light = s->light;
     w.light_pdfs = s->pdfs;
     w.infinite_light = is_infinite(kind);
     w.hittable_light = !is_delta(kind);

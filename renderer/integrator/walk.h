@@ -76,6 +76,7 @@ struct Walk {
     std::array<mis::State, max_exponents> mis;
 
     // Start of a light subpath; unused by the camera.
+    int light = -1;
     LightPdfs light_pdfs;
     bool infinite_light = false, hittable_light = true;
 

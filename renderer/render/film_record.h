@@ -6,9 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "image/film.h"
-#include "integrator/estimator.h"
-#include "render/settings.h"
+#include "render/recording.h"
 
 namespace midway {
 
@@ -51,9 +49,7 @@ struct FilmTargets {
     std::vector<std::unique_ptr<StrategyFilms>>* layers = nullptr;  // by strategy_index, or null
     bool statistics = false;
     PixelRect crop;
-    std::vector<bool> wanted;  // by strategy_index; empty: all
-    bool unweighted = false;
-    float clamp = std::numeric_limits<float>::infinity();
+    Recording recording;
 };
 
 // What one worker gathers beside the films.
@@ -84,9 +80,7 @@ class FilmRecord {
         }
     }
 
-    bool wants(const Strategy& k) const {
-        return targets_.wanted.empty() || targets_.wanted[strategy_index(k)];
-    }
+    bool wants(const Strategy& k) const { return targets_.recording.wants(k); }
 
     void contribution(const Contribution& c) {
         if (!usable(c)) return;
@@ -147,26 +141,19 @@ class FilmRecord {
     int half() const { return static_cast<int>(pass_ & 1); }
 
     bool usable(const Contribution& c) {
-        bool finite = is_finite(c.value);
-        for (size_t i = 0; i < targets_.films->size(); ++i) finite &= std::isfinite(c.weights[i]);
-        if (!finite) sums_.nonfinite.add(x_, y_, pass_);
-        return finite;
+        const bool usable = is_usable(c, targets_.films->size());
+        if (!usable) sums_.nonfinite.add(x_, y_, pass_);
+        return usable;
     }
 
     vec3 weighted(const Contribution& c, size_t exponent) {
-        vec3 v = targets_.unweighted ? c.value : c.value * static_cast<float>(c.weights[exponent]);
-        const float largest = max_component(v);
-        if (largest > targets_.clamp) {
-            v *= targets_.clamp / largest;
-            ++sums_.clamped;
-        }
-        return v;
+        const RecordedValue v = recorded_value(targets_.recording, c, exponent);
+        sums_.clamped += v.clamped;
+        return v.value;
     }
 
     FixedRgb fixed(const vec3& v) {
-        const int unit = targets_.films->front().unit_exponent();
-        return {to_fixed(v.x, unit, sums_.fixed), to_fixed(v.y, unit, sums_.fixed),
-                to_fixed(v.z, unit, sums_.fixed)};
+        return to_fixed_rgb(v, targets_.films->front().unit_exponent(), sums_.fixed);
     }
 
     void observe(const Contribution& c, int x, int y) {

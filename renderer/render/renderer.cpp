@@ -38,14 +38,6 @@ double thread_cpu_seconds() {
     return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-std::vector<bool> wanted_strategies(const RenderSettings& s) {
-    if (s.only.empty()) return {};
-    std::vector<bool> wanted(strategy_count(s.max_bounces + 1), false);
-    for (const Strategy& k : s.only)
-        if (strategy_index(k) < wanted.size()) wanted[strategy_index(k)] = true;
-    return wanted;
-}
-
 // Strategies (s, t) whose films are kept: those that exist for the estimator's families.
 void make_layers(const Estimator& e, int edges, int unit,
                  std::vector<std::unique_ptr<StrategyFilms>>& layers) {
@@ -82,9 +74,7 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
     targets_.layers = layers_.empty() ? nullptr : &layers_;
     targets_.statistics = options.statistics;
     targets_.crop = estimator_.crop;
-    targets_.wanted = wanted_strategies(settings);
-    targets_.unweighted = settings.unweighted;
-    if (settings.clamp) targets_.clamp = *settings.clamp;
+    targets_.recording = make_recording(settings);
     const size_t strategies = strategy_count(settings.max_bounces + 1) + 1;
     if (options.statistics) {
         totals_.strategies.resize(strategies);

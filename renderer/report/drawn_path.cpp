@@ -6,24 +6,13 @@
 namespace midway {
 namespace {
 
-struct Scattering {
-    float fwd = 0, rev = 0;
-    bool delta = false;
-};
-
-// One end's walk; element i belongs to vertex i counted from that end.
-struct RecordedWalk {
-    Walk start, now;
-    std::vector<PathVertex> vertices{1};
-    std::vector<Scattering> scattered{1};
-};
-
 // What the strategy says about the light's end of a path.
 struct LightEnd {
     vec3 position{0};  // or the direction towards an infinite light
     bool infinite = false, hittable = true;
     double cosine = 1;
     LightPdfs pdfs;
+    int id = -1;
 };
 
 vec3 direction(const vec3& from, const vec3& to) {
@@ -53,6 +42,7 @@ DrawnPath join(const RecordedWalk& camera, int from_camera, const RecordedWalk* 
     p.lens = lens;
     p.light = end.position;
     p.infinite = end.infinite;
+    p.light_id = end.id;
     for (int i = 1; i <= from_camera; ++i) p.surfaces[i] = camera.vertices[i];
     for (int j = 1; j <= from_light; ++j) p.surfaces[k - j] = light->vertices[j];
     for (int i = 1; i < k; ++i) {
@@ -108,6 +98,11 @@ void add_light_end(DrawnPath& p, int i) {
     p.pdfs.vertices[i + 1].camera_w = f.pdf_rev_w;
 }
 
+void add_vertex(RecordedWalk& w) {
+    w.vertices.push_back(w.now.vertex);
+    w.hits.push_back(w.now.point.hit);
+}
+
 // scatter() of the last vertex, with its pdfs put on record.
 bool scatter_on_record(RecordedWalk& w) {
     if (!scatter(w.now)) return false;
@@ -115,11 +110,19 @@ bool scatter_on_record(RecordedWalk& w) {
     return true;
 }
 
+int light_of(const Scene& scene, const TriangleHit& hit) {
+    return scene.first_light[hit.object] + hit.triangle;
+}
+
 using Visit = std::function<void(DrawnPath&)>;
 
 LightEnd end_of(const Walk& start) {
     return {start.infinite_light ? -start.ray.direction : start.previous_position,
-            start.infinite_light, start.hittable_light, start.cos_previous, start.light_pdfs};
+            start.infinite_light,
+            start.hittable_light,
+            start.cos_previous,
+            start.light_pdfs,
+            start.light};
 }
 
 void visit_light_tracing(const Estimator& e, const RecordedWalk& light, const Visit& visit) {
@@ -152,6 +155,7 @@ void visit_hit(const Estimator& e, const RecordedWalk& camera, Reached reached,
     end.pdfs = (end.infinite ? sky_hit(*e.scene, w.ray.direction)
                              : emitter_hit(*e.scene, w.point, w.vertex.to_previous))
                    ->pdfs;
+    end.id = end.infinite ? e.scene->sky_light : light_of(*e.scene, w.point.hit);
     DrawnPath p = join(camera, w.index - 1, nullptr, 0, end, camera.start.ray.origin);
     p.contribution = *c;
     add_camera_pdfs(p, camera, w.index - 1);
@@ -167,8 +171,12 @@ void visit_next_event(const Estimator& e, const RecordedWalk& camera, const Visi
     const vec4 u = sample_4d(camera.now.key, connect_group(v.index));
     const NextEventSample n = *sample_next_event(*e.scene, v.position, vec3(u));
     const LightKind kind = e.scene->lights[n.light].kind;
-    const LightEnd end{is_infinite(kind) ? n.direction : n.target, is_infinite(kind),
-                       !is_delta(kind), n.cos_theta, n.pdfs};
+    const LightEnd end{is_infinite(kind) ? n.direction : n.target,
+                       is_infinite(kind),
+                       !is_delta(kind),
+                       n.cos_theta,
+                       n.pdfs,
+                       n.light};
     DrawnPath p = join(camera, v.index, nullptr, 0, end, camera.start.ray.origin);
     p.contribution = *c;
     add_camera_pdfs(p, camera, v.index - 1);
@@ -203,8 +211,11 @@ std::optional<RecordedWalk> record_light(const Estimator& e, std::uint64_t subpa
     if (!start) return {};
     RecordedWalk w;
     w.start = w.now = *start;
-    while (w.now.index < e.max_bounces && extend(e, w.now) == Reached::surface) {
-        w.vertices.push_back(w.now.vertex);
+    while (w.now.index < e.max_bounces) {
+        const Reached reached = extend(e, w.now);
+        w.escaped = reached == Reached::sky;
+        if (reached != Reached::surface) break;
+        add_vertex(w);
         if (w.now.vertex.connectible) visit_light_tracing(e, w, visit);
         if (!scatter_on_record(w)) break;
     }
@@ -250,28 +261,29 @@ void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
 
 }  // namespace
 
-void draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& found) {
-    std::optional<RecordedWalk> light;
+DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& found) {
+    DrawnSample sample;
     if (e.families.needs_light_subpaths())
-        light = record_light(e, paired_subpath(e, x, y, pass), pass, found);
+        sample.light = record_light(e, paired_subpath(e, x, y, pass), pass, found);
     // What the camera's walk finds belongs to its own pixel.
     const Visit visit = [&](DrawnPath& p) {
         p.x = x;
         p.y = y;
         found(p);
     };
-    RecordedWalk camera;
+    RecordedWalk& camera = sample.camera;
     camera.start = camera.now = start_camera_walk(e, x, y, pass);
     for (;;) {
         const Reached reached = extend(e, camera.now);
+        camera.escaped = reached == Reached::sky;
         if (reached != Reached::nothing) visit_hit(e, camera, reached, visit);
-        if (reached != Reached::surface || camera.now.index > e.max_bounces) return;
-        camera.vertices.push_back(camera.now.vertex);
+        if (reached == Reached::surface) add_vertex(camera);
+        if (reached != Reached::surface || camera.now.index > e.max_bounces) return sample;
         if (camera.now.vertex.connectible) {
             visit_next_event(e, camera, visit);
-            if (light) visit_connections(e, camera, *light, visit);
+            if (sample.light) visit_connections(e, camera, *sample.light, visit);
         }
-        if (!scatter_on_record(camera)) return;
+        if (!scatter_on_record(camera)) return sample;
     }
 }
 

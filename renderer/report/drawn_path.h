@@ -17,15 +17,38 @@ struct DrawnPath {
     std::vector<PathVertex> surfaces;
     vec3 lens{0}, light{0};  // `light` is a direction where `infinite`
     bool infinite = false;
-    int x = 0, y = 0;  // the pixel it contributes to
+    int light_id = -1;  // of the scene
+    int x = 0, y = 0;   // the pixel it contributes to
 
     int edges() const { return pdfs.edges(); }
 };
 
-// Calls `visit` with every path that the sample of a pixel draws, each with its contribution. A
-// path of one edge (a lamp seen directly) has one strategy and no weights to form.
-void draw_paths(const Estimator& e, int x, int y, std::uint64_t pass,
-                const std::function<void(DrawnPath&)>& visit);
+// What scattering at a vertex drew: densities of the way on, and of the way back.
+struct Scattering {
+    float fwd = 0, rev = 0;  // per solid angle; for a delta lobe discrete probabilities
+    bool delta = false;
+};
+
+// One end's walk; element i belongs to vertex i counted from that end, element 0 is unused. Where
+// the walk did not leave its last vertex, `scattered` is one shorter than `vertices`.
+struct RecordedWalk {
+    Walk start, now;
+    std::vector<PathVertex> vertices{1};
+    std::vector<Scattering> scattered{1};
+    std::vector<TriangleHit> hits{1};
+    bool escaped = false;  // the last ray left the scene, in direction now.ray.direction
+};
+
+struct DrawnSample {
+    RecordedWalk camera;
+    std::optional<RecordedWalk> light;  // where the families use one, and it carries something
+};
+
+// Calls `visit` with every path that the sample of a pixel draws, each with its contribution, and
+// also for families that are not in use; in the order of estimate(). A path of one edge (a lamp
+// seen directly) has one strategy and no weights to form.
+DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass,
+                       const std::function<void(DrawnPath&)>& visit);
 
 // The same path with each pdf evaluated anew, in float geometry, by a walk through its vertices
 // from the camera (Transport::radiance) or from the light. `scatters[i]` tells whether vertex i

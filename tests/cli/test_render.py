@@ -1,6 +1,7 @@
 """`midway render`: the files it writes, the same bits every time, statistics, interruption."""
 
 import json
+import re
 import struct
 
 import tiny_scene
@@ -176,6 +177,24 @@ class DebugPixel(CliTest):
         self.assertTrue(first.strip())
         self.assertEqual(first, self.replay("10,12,3", "--threads", 2).stdout)
         self.assertNotEqual(first, self.replay("10,12,2").stdout)
+
+    def test_writes_the_sample_out_in_full(self):
+        # Names of vertices, what each path gave, and weights of all strategies that sum to one.
+        lines = self.replay("10,12,3", "--exponent", "0,2").stdout.splitlines()
+        self.assertRegex(lines[0], r"^pixel 10,12 sample 3 light subpath \d+$")
+        self.assertRegex(lines[1], r"^  C0 camera at .* pdf_fwd - ")
+        self.assertTrue(any(re.match(r"  L0 .*throughput", line) for line in lines), lines)
+        sums, paths = None, 0
+        for line in lines + ["  end"]:
+            if not line.startswith("    "):
+                if sums:
+                    paths += 1
+                    for total in sums:
+                        self.assertAlmostEqual(1, total, 4, line)
+                sums = None
+            elif weights := re.findall(r"(?:weight\(\d\)|direct) (\S+)", line):
+                sums = [a + float(b) for a, b in zip(sums or [0] * 4, weights, strict=True)]
+        self.assertGreater(paths, 0)
 
     def test_refuses_what_is_outside(self):
         for where in ["32,0,0", "0,24,0", "-1,0,0", "1,2", "a,b,c"]:

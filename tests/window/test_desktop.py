@@ -1,49 +1,16 @@
 """A person's visit: the window on a display in memory, with real mouse and key events."""
 
-import shutil
-import subprocess
 import time
 import unittest
 
 import tiny_scene
-import window_test
 from exr_file import ExrFile
-from window_test import Desktop, WindowTest, read_png, wait_for
-
-TOOLS = [tool for tool in ("Xvfb", "xdotool") if not shutil.which(tool)]
+from window_test import TOOLS, HandsTest, read_png, wait_for
 
 
 @unittest.skipIf(TOOLS, f"{' and '.join(TOOLS)} missing (app/packages.txt lists them)")
-class Visit(WindowTest):
-    def setUp(self):
-        super().setUp()
-        self.desktop = Desktop(self.environment)
-        self.addCleanup(self.desktop.close)
-        self.hand = self.desktop.hand
-        self.saved = 0
-
-    def open_window(self, *arguments):
-        self.process = subprocess.Popen(
-            [str(window_test.view), *map(str, arguments)], cwd=self.folder, text=True,
-            env=self.desktop.environment, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        self.addCleanup(self.process.communicate)
-        self.addCleanup(self.process.kill)
-
-    def wait_for_title(self, title):
-        if not wait_for(lambda: self.hand("search", "--name", f"^{title}$")):
-            if self.process.poll() is not None:
-                self.fail(f"ended with {self.process.returncode}: {self.process.stderr.read()}")
-            self.fail(f"no window is called {title}")
-
-    def look(self, name):
-        """A picture of the screen for whoever wants one."""
-        if window_test.pictures and shutil.which("import"):
-            subprocess.run(["import", "-window", "root", f"visit-{name}.png"], check=False,
-                           cwd=self.folder, env=self.desktop.environment)
-            self.keep(f"visit-{name}.png")
-
-    def press(self, key):
-        self.hand("key", key)
+class Visit(HandsTest):
+    saved = 0
 
     def save(self):
         """Saves with Ctrl+S and returns the EXR file."""
@@ -60,12 +27,6 @@ class Visit(WindowTest):
             if good(exr):
                 return exr
         return self.fail(f"the saved image does not show it: {what}")
-
-    def drag(self, x, y, dx, dy):
-        self.hand("mousemove", x, y, "mousedown", 1)
-        for step in range(1, 9):
-            self.hand("mousemove", x + dx * step // 8, y + dy * step // 8)
-        self.hand("mouseup", 1)
 
     def test_open_orbit_switch_save_reload_quit(self):
         self.open_window(self.scene, "--window", "1280x720", "--size", "64x48", "--spp", 4)

@@ -151,3 +151,45 @@ class Desktop:
         if self.server.poll() is None:
             self.server.terminate()
         self.server.wait()
+
+
+TOOLS = [tool for tool in ("Xvfb", "xdotool") if not shutil.which(tool)]
+
+
+class HandsTest(WindowTest):
+    """A window on a display in memory, with real mouse and key events. Skip where TOOLS are missing."""
+
+    def setUp(self):
+        super().setUp()
+        self.desktop = Desktop(self.environment)
+        self.addCleanup(self.desktop.close)
+        self.hand = self.desktop.hand
+
+    def open_window(self, *arguments):
+        self.process = subprocess.Popen(
+            [str(view), *map(str, arguments)], cwd=self.folder, text=True,
+            env=self.desktop.environment, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.addCleanup(self.process.communicate)
+        self.addCleanup(self.process.kill)
+
+    def wait_for_title(self, title):
+        if not wait_for(lambda: self.hand("search", "--name", f"^{title}$")):
+            if self.process.poll() is not None:
+                self.fail(f"ended with {self.process.returncode}: {self.process.stderr.read()}")
+            self.fail(f"no window is called {title}")
+
+    def look(self, name):
+        """A picture of the screen for whoever wants one."""
+        if pictures and shutil.which("import"):
+            subprocess.run(["import", "-window", "root", f"visit-{name}.png"], check=False,
+                           cwd=self.folder, env=self.desktop.environment)
+            self.keep(f"visit-{name}.png")
+
+    def press(self, key):
+        self.hand("key", key)
+
+    def drag(self, x, y, dx, dy):
+        self.hand("mousemove", x, y, "mousedown", 1)
+        for step in range(1, 9):
+            self.hand("mousemove", x + dx * step // 8, y + dy * step // 8)
+        self.hand("mouseup", 1)

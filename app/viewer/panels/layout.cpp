@@ -17,6 +17,7 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 
 struct Columns {
     float left = 0, right = 0, bottom = 0;  // sizes in points
+    float dock = 0;                         // above the status line, as wide as the window
 };
 
 Columns columns_of(const App& app, const ImVec2& size) {
@@ -25,6 +26,8 @@ Columns columns_of(const App& app, const ImVec2& size) {
     const float width = std::round(em(19));
     Columns c;
     c.bottom = std::round(ImGui::GetFrameHeight() + em(0.3f));
+    if (app.ui.panel.navigation.tool == ViewTool::inspect)
+        c.dock = std::round(std::min(em(16), 0.4f * size.y));
     c.left = a.left ? width : 0;
     c.right = a.right ? width : 0;
     // Where both would leave the image too little, everything moves to the left one.
@@ -71,8 +74,9 @@ Change draw_layout(App& app) {
     const Columns c = columns_of(app, size);
     Arrangement& a = app.ui.panel.arrangement;
     a.right_fits = c.right > 0;
-    const float height = size.y - c.bottom;
+    const float height = size.y - c.bottom - c.dock;
     app.ui.view = {{c.left, 0}, {size.x - c.right, height}};
+    app.ui.panel.dock = {0, height, size.x, height + c.dock};
     if (app.ui.panels) {
         if (c.left > 0) column("##left", 0, c.left, height);
         if (c.right > 0) column("##right", size.x - c.right, c.right, height);

@@ -100,16 +100,30 @@ void begin(App& app) {
     if (gesture == Gesture::none) return;
     n.gesture = gesture;
     n.mouse = n.region_start = mouse_in_image(app);
+    n.dragged = false;
     n.to.reset();
     n.wheel.log_factor = 0;
     if (gesture == Gesture::pan || gesture == Gesture::dolly)
         n.held = point_under(app, current_view(app), n.mouse);
-    if (gesture == Gesture::orbit) n.pivot_seen_until = ImGui::GetTime() + 0.6;
+    if (gesture == Gesture::orbit && n.tool == ViewTool::orbit)
+        n.pivot_seen_until = ImGui::GetTime() + 0.6;
+}
+
+// With the inspector in hand a click is no orbit, though the hand may shake.
+bool is_click(const App& app) {
+    const Navigation& n = app.ui.panel.navigation;
+    const double points = zoom_in_use(app) * glm::length(mouse_in_image(app) - n.region_start);
+    return n.tool == ViewTool::inspect && n.gesture == Gesture::orbit && !n.dragged &&
+           points < ui::em(0.3f);
 }
 
 Change end(App& app) {
     Navigation& n = app.ui.panel.navigation;
     Change change;
+    if (is_click(app)) {
+        const ImVec2 m = ImGui::GetIO().MousePos;
+        if (const auto pixel = pixel_at(app, {m.x, m.y})) inspect_pixel(app, *pixel);
+    }
     if (n.gesture == Gesture::fly)
         app.camera.pivot = natural_pivot(scene_of(app), current_view(app));
     if (n.gesture == Gesture::region) {
@@ -131,6 +145,8 @@ Change end(App& app) {
 
 Change drag(App& app) {
     Navigation& n = app.ui.panel.navigation;
+    if (is_click(app)) return {};
+    n.dragged = true;
     if (n.gesture == Gesture::dolly && !ImGui::GetIO().WantTextInput) {
         const FlyInput in = fly_input(app);
         if (in.forward != 0 || in.right != 0 || in.up != 0) n.gesture = Gesture::fly;
@@ -272,7 +288,8 @@ Change draw_navigation(App& app) {
     Navigation& n = app.ui.panel.navigation;
     const void* geometry = scene_of(app).geometry.get();
     if (n.pivot_of != geometry) {
-        n = Navigation{.speed = n.speed};
+        const bool inspecting = n.tool == ViewTool::inspect;
+        n = Navigation{.tool = inspecting ? ViewTool::inspect : ViewTool::orbit, .speed = n.speed};
         n.pivot_of = geometry;
         app.camera.pivot = natural_pivot(scene_of(app), current_view(app));
     }

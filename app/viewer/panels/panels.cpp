@@ -7,13 +7,14 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 15> table = {{
+constexpr std::array<Panel, 16> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
     {"run", draw_run},
     {"camera", draw_camera},
     {"sampling", draw_sampling},
+    {"inspector", draw_inspector},
     {"display", draw_display},
     {"scene", draw_scene},
     {"files", draw_files},

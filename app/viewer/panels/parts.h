@@ -25,7 +25,8 @@ Change draw_messages(App& app);
 
 // Over the image.
 Change draw_status(App& app);
-Change draw_overlays(App& app);  // loading, notices, default sky, legend
+Change draw_overlays(App& app);   // loading, notices, default sky, legend
+Change draw_inspector(App& app);  // the dock below, the lines' names, the pixel under the mouse
 Change draw_gallery(App& app);
 Change draw_tour(App& app);
 
@@ -38,6 +39,8 @@ Change frame_whole_scene(App& app);
 Change store_bookmark(App& app);
 Change recall_bookmark(App& app, int index);
 void choose_tool(App& app, ViewTool tool);  // again: puts it away
+void inspect_pixel(App& app, ivec2 pixel);  // of the whole image: its first sample, or as before
+bool inspect_nonfinite(App& app);           // the first sample that was; false where there is none
 
 // Where the camera is, and where it shall be.
 View current_view(const App& app);

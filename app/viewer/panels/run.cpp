@@ -80,7 +80,7 @@ Change draw_region(App& app) {
     if (ui::wide_button(picking  ? "Drag in the image"
                         : s.crop ? "Change"
                                  : "Drag a region",
-                        "Then drag a rectangle over the image; Esc gives up. [I]", width))
+                        "Then drag a rectangle over the image; Esc gives up. [Shift+R]", width))
         choose_tool(app, ViewTool::region);
     if (s.crop) {
         ImGui::SameLine();

@@ -59,14 +59,16 @@ std::optional<double> error_of(App& app) {
     return cache.error;
 }
 
-// A cell of fixed width, so that numbers do not push each other about.
-void cell(const theme::Color& color, const std::string& text, const char* tooltip, float width) {
+// A cell of fixed width, so that numbers do not push each other about. True where it was clicked.
+bool cell(const theme::Color& color, const std::string& text, const char* tooltip, float width) {
     const float x = ImGui::GetCursorPosX();
     ImGui::TextColored(color, "%s", text.c_str());
+    const bool clicked = ImGui::IsItemClicked();
     ui::tip(tooltip);
     ImGui::SameLine();
     ImGui::SetCursorPosX(
         x + std::max(ui::em(width), ImGui::CalcTextSize(text.c_str()).x + ui::em(0.8f)));
+    return clicked;
 }
 
 const char* state_in_words(const App& app, const Snapshot& s) {
@@ -105,9 +107,13 @@ void draw_cells(App& app) {
     cell(theme::text_dim, short_number(s.rays_per_second) + " rays/s",
          "Rays a second, all threads together, shadow rays included", 7.4f);
     cell(theme::text_dim, fmt::format("{} x {}", s.width, s.height), "Pixels of the image", 6);
-    if (s.statistics.nonfinite.count > 0)
-        cell(theme::error, fmt::format("{} not finite", s.statistics.nonfinite.count),
-             "Samples whose value was not a number; they are counted and left out", 6);
+    if (s.statistics.nonfinite.count == 0) return;
+    if (cell(
+            theme::error, fmt::format("{} not finite", s.statistics.nonfinite.count),
+            "Samples whose value was not a number; they are counted and left out. Click to inspect "
+            "the first of them.",
+            6))
+        inspect_nonfinite(app);
 }
 
 }  // namespace
@@ -115,7 +121,7 @@ void draw_cells(App& app) {
 Change draw_status(App& app) {
     if (!app.ui.panels) return {};
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const float top = app.ui.view.upper.y;
+    const float top = app.ui.panel.dock[3];
     ImGui::SetNextWindowPos({0, top});
     ImGui::SetNextWindowSize({size.x, size.y - top});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui::em(0.7f), ui::em(0.15f)});
