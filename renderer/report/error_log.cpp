@@ -64,13 +64,13 @@ std::string number_text(double v) { return std::isnan(v) ? "" : fmt::format("{}"
 
 }  // namespace
 
-ErrorPoint measure_error(const Reference& r, const Film& film, const PassCounts& passes,
+ErrorPoint measure_error(const Reference& r, const Image& image, std::uint64_t spp,
                          const Elapsed& elapsed, bool flip) {
     DiffOptions options;
     options.flip = flip;
     if (r.variance) options.reference_variance = &*r.variance;
-    const ImageError e = compare_images(resolve(film, passes), r.image, options);
-    ErrorPoint p{elapsed.seconds, elapsed.cpu_seconds, passes.total()};
+    const ImageError e = compare_images(image, r.image, options);
+    ErrorPoint p{elapsed.seconds, elapsed.cpu_seconds, spp};
     p.mse = e.mse;
     p.rmse = e.rmse;
     p.relmse = e.relmse;
@@ -78,8 +78,15 @@ ErrorPoint measure_error(const Reference& r, const Film& film, const PassCounts&
     p.smape = e.smape;
     if (flip) p.flip = e.flip;
     p.bias = bias(e);
-    p.bias_z = passes.a > 0 && passes.b > 0 ? bias_deviate(p.bias, r, error_of_mean(film, passes))
-                                            : unknown;
+    p.bias_z = unknown;
+    return p;
+}
+
+ErrorPoint measure_error(const Reference& r, const Film& film, const PassCounts& passes,
+                         const Elapsed& elapsed, bool flip) {
+    ErrorPoint p = measure_error(r, resolve(film, passes), passes.total(), elapsed, flip);
+    if (passes.a > 0 && passes.b > 0)
+        p.bias_z = bias_deviate(p.bias, r, error_of_mean(film, passes));
     return p;
 }
 
@@ -98,6 +105,24 @@ double estimate_relmse(const Film& film, const PassCounts& n) {
                     sum += share * sqr(a[c] - b[c]) / (std::max(0.0, a[c] * b[c]) + epsilon);
         }
     return sum / (3 * double(image.width) * image.height);
+}
+
+std::optional<double> estimate_relmse(const Image& mean, const Image& variance,
+                                      const PassCounts& passes, size_t step) {
+    const size_t size = mean.pixels.size();
+    if (passes.a == 0 || passes.a != passes.b || size == 0 || variance.pixels.size() != size)
+        return {};
+    double light = 0, sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < size; i += step, ++count) light += luminance(dvec3(mean.pixels[i]));
+    const double epsilon = 0.01 * sqr(light / double(count));
+    for (size_t i = 0; i < size; i += step)
+        for (int c = 0; c < 3; ++c) {
+            // v = (a - b)^2 / 4 and a b = mean^2 - v.
+            const double v = variance.pixels[i][c];
+            if (v > 0) sum += v / (std::max(0.0, sqr(double(mean.pixels[i][c])) - v) + epsilon);
+        }
+    return sum / (3 * double(count));
 }
 
 std::uint64_t next_measured_pass(std::uint64_t passes) {

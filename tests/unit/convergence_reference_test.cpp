@@ -140,6 +140,35 @@ TEST(ErrorRow, EstimateNeedsNoReference) {
               10 / double(width * height) + estimate_relmse(film, pass_counts(0, 200)));
 }
 
+// A window has means and variances alone; at even numbers of passes nothing but rounding is lost.
+TEST(ErrorRow, SnapshotsGiveTheNumbersOfTheirFilms) {
+    Reference exact;
+    exact.image = true_image();
+    exact.luminance.estimate.mean = mean_luminance(exact.image);
+    for (const std::uint64_t passes : {2, 9, 16, 34}) {
+        Film film = noisy_film(passes, 900);
+        FixedCounts counts;
+        const Int128 bright = to_fixed(30.0f, film.unit_exponent(), counts);
+        for (const int half : {0, 1})
+            ASSERT_TRUE(film.add(half, 3 + half, 7, {bright, bright, bright}));
+        const PassCounts n = pass_counts(0, passes);
+        const Image mean = resolve(film, n), variance = resolve_variance(film, n);
+        const std::optional<double> estimated = estimate_relmse(mean, variance, n);
+        ASSERT_EQ(estimated.has_value(), passes % 2 == 0);
+        if (estimated) {
+            EXPECT_NEAR(*estimated / estimate_relmse(film, n), 1, 1e-4) << passes;
+        }
+        const ErrorPoint p = measure_error(exact, film, n, {1, 2});
+        const ErrorPoint q = measure_error(exact, mean, passes, {1, 2});
+        EXPECT_EQ(p.relmse, q.relmse);
+        EXPECT_EQ(p.relmse_trimmed, q.relmse_trimmed);
+        EXPECT_EQ(p.bias, q.bias);
+        EXPECT_EQ(p.spp, q.spp);
+        EXPECT_TRUE(std::isnan(q.bias_z));
+    }
+    EXPECT_FALSE(estimate_relmse(exact.image, Image(3, 2), pass_counts(0, 2)));
+}
+
 TEST(ErrorRow, IsMeasuredAtTheSamePassesWhereverItBegins) {
     std::vector<std::uint64_t> grid;
     for (std::uint64_t n = 0; grid.size() < 18; grid.push_back(n)) n = next_measured_pass(n);

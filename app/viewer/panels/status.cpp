@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/error_log.h"
 #include "viewer/panels/parts.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
@@ -25,24 +26,14 @@ std::string duration(double seconds) {
     return fmt::format("{}:{:02} h", whole / 3600, whole / 60 % 60);
 }
 
-// Estimated relative error of the image: the root of what relMSE (DESIGN, section 4) is expected to
-// be against the truth, from the variance that the two halves of the samples show. At most some
-// 2^16 pixels, evenly spread, are looked at.
-std::optional<double> estimated_error(const Image& image, const Image& variance) {
-    const size_t n = image.pixels.size();
-    if (n == 0 || variance.pixels.size() != n) return {};
-    const size_t step = std::max<size_t>(1, n >> 16);
-    double mean = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < n; i += step, ++count) mean += luminance(dvec3(image.pixels[i]));
-    mean /= static_cast<double>(count);
-    double sum = 0;
-    for (size_t i = 0; i < n; i += step)
-        for (int k = 0; k < 3; ++k)
-            sum += variance.pixels[i][k] / (sqr(double(image.pixels[i][k])) + 0.01 * sqr(mean));
-    const double error = std::sqrt(sum / (3 * static_cast<double>(count)));
-    if (!std::isfinite(error)) return {};
-    return error;
+// Estimated relative error of the image: the root of the relMSE that is expected against the truth.
+// At most some 2^16 pixels, evenly spread, are looked at. Known at even numbers of passes.
+std::optional<double> estimated_error(const Image& image, const Image& variance,
+                                      std::uint64_t passes) {
+    const size_t step = std::max<size_t>(1, image.pixels.size() >> 16);
+    const auto relmse = estimate_relmse(image, variance, pass_counts(0, passes), step);
+    if (!relmse || !std::isfinite(*relmse)) return {};
+    return std::sqrt(*relmse);
 }
 
 std::optional<double> error_of(App& app) {
@@ -51,12 +42,20 @@ std::optional<double> error_of(App& app) {
     if (cache.of == &s && cache.job == s.job && cache.passes == s.passes &&
         cache.exponent == app.render.exponent)
         return cache.error;
-    cache = {&s, s.job, s.passes, app.render.exponent, {}};
+    const bool goes_on = cache.job == s.job && cache.exponent == app.render.exponent;
+    const std::optional<double> before = goes_on ? cache.error : std::nullopt;
+    cache = {&s, s.job, s.passes, app.render.exponent, before};
+    if (s.passes % 2 == 1) return before;
     const auto at = std::find(s.exponents.begin(), s.exponents.end(), app.render.exponent);
     const auto i = static_cast<size_t>(at == s.exponents.end() ? 0 : at - s.exponents.begin());
     if (i < s.images.size() && i < s.variances.size() && s.images[i] && s.variances[i])
-        cache.error = estimated_error(*s.images[i], *s.variances[i]);
+        cache.error = estimated_error(*s.images[i], *s.variances[i], s.passes);
     return cache.error;
+}
+
+std::string error_text(double error) {
+    if (error >= 0.995) return fmt::format("error ~{:.0f} %", 100 * std::min(error, 1e4));
+    return fmt::format("error ~{:.2g} %", 100 * error);
 }
 
 // A cell of fixed width, so that numbers do not push each other about. True where it was clicked.
@@ -98,7 +97,7 @@ void draw_cells(App& app) {
     cell(theme::text, duration(s.seconds), "Time spent rendering this image", 4.6f);
     const std::optional<double> error = s.scale == 1 ? error_of(app) : std::nullopt;
     cell(
-        theme::text, error ? fmt::format("error ~{:.2g} %", 100 * *error) : "error -",
+        theme::text, error ? error_text(*error) : "error -",
         "Estimated relative error: the root of the relMSE that is expected against the truth, from "
         "the difference of the two independent halves of the samples",
         7);
