@@ -1,13 +1,19 @@
 #version 330 core
 // From the renderer's numbers to the encoded colours on the screen, pixel by pixel: exposure, tone
-// curve, false colour, channels. The same as shown_colour() in app/viewer/display_maths.cpp, which
-// writes PNG files; curves as in renderer/image/tonemap.cpp, with their sources there.
+// curve, false colour, channels, differences of two images. The same as shown_colour() and
+// seen_pixel() in app/viewer, which write PNG files; curves as in renderer/image/tonemap.cpp, with
+// their sources there. A difference lies on the pixels of `other`, A; `values`, B, may be coarser.
 uniform sampler2D values;
 uniform int mode;       // DisplayMode in display_maths.h
 uniform int curve;      // Curve in image/tonemap.h
-uniform float scale;    // on the values
-uniform vec2 range;     // of stops, or of depths
+uniform float scale;    // on the values, or on their difference
+uniform vec2 range;     // of stops, depths or differences
 uniform vec3 ramp[10];  // of false colours
+uniform sampler2D other;
+uniform vec2 other_lies;        // from the first corner of `values`, in pixels
+uniform float pixels;           // of `other` along one of `values`
+uniform float relative_floor;   // below A^2
+uniform vec3 signed_ramp[11];
 out vec4 encoded;
 
 float srgb(float x) {
@@ -63,6 +69,18 @@ vec3 stops(float light) {
     return ramp_at((log2(light) - range.x) / (range.y - range.x));
 }
 
+vec3 difference() {
+    const vec3 luminance = vec3(0.2126, 0.7152, 0.0722);
+    vec2 place = (floor(gl_FragCoord.xy) + 0.5 + other_lies) / pixels;
+    ivec2 texel = clamp(ivec2(floor(place)), ivec2(0), textureSize(values, 0) - 1);
+    float a = dot(texelFetch(other, ivec2(gl_FragCoord.xy), 0).rgb, luminance);
+    float d = dot(texelFetch(values, texel, 0).rgb, luminance) - a;
+    if (mode == 7) d /= sqrt(a * a + relative_floor);
+    float p = clamp((d * scale - range.x) / (range.y - range.x), 0.0, 1.0) * 10.0;
+    int i = min(int(p), 9);
+    return mix(signed_ramp[i], signed_ramp[i + 1], p - float(i));
+}
+
 // A colour for a whole number, far from those of its neighbours.
 vec3 object_colour(float number) {
     if (number <= 0.0) return vec3(0.0);
@@ -71,6 +89,10 @@ vec3 object_colour(float number) {
 }
 
 void main() {
+    if (mode >= 6) {
+        encoded = vec4(difference(), 1.0);
+        return;
+    }
     vec3 v = texelFetch(values, ivec2(gl_FragCoord.xy), 0).rgb;
     vec3 c;
     if (mode == 0)

@@ -27,64 +27,90 @@ Rect intersection(const Rect& a, const Rect& b) {
 
 }  // namespace
 
+Display::Layer::Layer(const Gl& gl)
+    : values(make_texture(gl)), colours(make_texture(gl)), target(make_framebuffer(gl)) {}
+
 Display::Display(const Gl& gl)
     : gl_(gl),
       colour_program_(make_program(gl, "display.vert", "display.frag")),
       image_program_(make_program(gl, "image.vert", "image.frag")),
       empty_array_(make_vertex_array(gl)),
-      values_(make_texture(gl)),
-      colours_(make_texture(gl)),
-      colour_target_(make_framebuffer(gl)) {}
+      b_(gl),
+      a_(gl) {}
 
 void Display::update(const ShownImage& shown) {
-    const bool new_image = shown.image != shown_.image;
-    const bool new_colours = new_image || !(shown.maths == shown_.maths);
+    const bool new_maths = !(shown.maths == shown_.maths);
+    const bool moved = shown.scale != shown_.scale || shown.placement.x0 != shown_.placement.x0 ||
+                       shown.placement.y0 != shown_.placement.y0 ||
+                       shown.differs() != shown_.differs();
+    const bool compared = shown.other != shown_.other;
     shown_ = shown;
     if (!shown_.image) return;
-    if (new_image) upload(*shown_.image);
-    if (new_colours) colour();
+    const bool new_b = upload(b_, shown_.image), new_a = upload(a_, shown_.other);
+    if (shown_.differs()) {
+        if (new_b || new_a || new_maths || moved) colour(b_, a_.values_size, shown_.maths);
+        return;
+    }
+    if (new_b || new_maths || moved) colour(b_, b_.values_size, shown_.maths);
+    if (shown_.other && (new_a || new_maths || moved || compared))
+        colour(a_, a_.values_size, shown_.maths);
 }
 
-void Display::upload(const Image& image) {
-    const ivec2 size(image.width, image.height);
+// True where it is another one than before.
+bool Display::upload(Layer& layer, const std::shared_ptr<const Image>& image) {
+    if (layer.image == image) return false;
+    layer.image = image;
+    if (!image) return true;
+    const ivec2 size(image->width, image->height);
     gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl_.BindTexture(GL_TEXTURE_2D, *values_);
-    if (size != values_size_) {
+    gl_.BindTexture(GL_TEXTURE_2D, *layer.values);
+    if (size != layer.values_size) {
         gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT,
-                       image.pixels.data());
+                       image->pixels.data());
         filter(gl_, GL_NEAREST);
-        values_size_ = size;
+        layer.values_size = size;
     } else {
         gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGB, GL_FLOAT,
-                          image.pixels.data());
+                          image->pixels.data());
     }
+    return true;
 }
 
-void Display::colour() {
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, *colour_target_);
-    if (colours_size_ != values_size_) {
-        gl_.BindTexture(GL_TEXTURE_2D, *colours_);
-        gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, values_size_.x, values_size_.y, 0, GL_RGBA,
-                       GL_UNSIGNED_BYTE, nullptr);
+void Display::colour(Layer& layer, const ivec2& size, const DisplayMaths& maths) {
+    gl_.BindFramebuffer(GL_FRAMEBUFFER, *layer.target);
+    if (layer.colours_size != size) {
+        gl_.BindTexture(GL_TEXTURE_2D, *layer.colours);
+        gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                       nullptr);
         filter(gl_, GL_LINEAR);
-        gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *colours_, 0);
-        colours_size_ = values_size_;
+        gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                                 *layer.colours, 0);
+        layer.colours_size = size;
     }
     const GLuint program = *colour_program_;
     const auto place = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
     gl_.Disable(GL_SCISSOR_TEST);
     gl_.Disable(GL_BLEND);
-    gl_.Viewport(0, 0, values_size_.x, values_size_.y);
+    gl_.Viewport(0, 0, size.x, size.y);
     gl_.UseProgram(program);
+    gl_.ActiveTexture(GL_TEXTURE1);
+    gl_.BindTexture(GL_TEXTURE_2D, *a_.values);
     gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, *values_);
+    gl_.BindTexture(GL_TEXTURE_2D, *layer.values);
     gl_.Uniform1i(place("values"), 0);
-    gl_.Uniform1i(place("mode"), static_cast<int>(shown_.maths.mode));
-    gl_.Uniform1i(place("curve"), static_cast<int>(shown_.maths.curve));
-    gl_.Uniform1f(place("scale"), shown_.maths.scale);
-    gl_.Uniform2f(place("range"), shown_.maths.range.x, shown_.maths.range.y);
-    const std::span<const vec3> ramp = stop_ramp();
+    gl_.Uniform1i(place("other"), 1);
+    gl_.Uniform1i(place("mode"), static_cast<int>(maths.mode));
+    gl_.Uniform1i(place("curve"), static_cast<int>(maths.curve));
+    gl_.Uniform1f(place("scale"), maths.scale);
+    gl_.Uniform2f(place("range"), maths.range.x, maths.range.y);
+    gl_.Uniform1f(place("relative_floor"), maths.floor);
+    gl_.Uniform2f(place("other_lies"),
+                  static_cast<float>(shown_.other_place.x0 - shown_.placement.x0),
+                  static_cast<float>(shown_.other_place.y0 - shown_.placement.y0));
+    gl_.Uniform1f(place("pixels"), static_cast<float>(shown_.scale));
+    const std::span<const vec3> ramp = stop_ramp(), two_sided = signed_ramp();
     gl_.Uniform3fv(place("ramp"), static_cast<GLsizei>(ramp.size()), &ramp[0].x);
+    gl_.Uniform3fv(place("signed_ramp"), static_cast<GLsizei>(two_sided.size()), &two_sided[0].x);
     gl_.BindVertexArray(*empty_array_);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -99,20 +125,35 @@ void Display::draw(const App& app, const Target& target, const vec3& background)
     if (!shown_.image) return;
 
     // Show no more than the crop, though coarse pixels reach beyond it.
-    const ImagePlacement& p = shown_.placement;
-    const Rect place{screen_position(app, {p.x0, p.y0}), screen_position(app, {p.x1, p.y1})};
-    const Rect crop{screen_position(app, vec2(shown_.crop.x0, shown_.crop.y0)),
-                    screen_position(app, vec2(shown_.crop.x1, shown_.crop.y1))};
-    gl_.Enable(GL_SCISSOR_TEST);
-    scissor(gl_, intersection(app.ui.view, crop), target.scale, target.size);
+    const auto on_screen = [&](const PixelRect& r) {
+        const Rect place{screen_position(app, vec2(r.x0, r.y0)),
+                         screen_position(app, vec2(r.x1, r.y1))};
+        return intersection(app.ui.view, place);
+    };
+    Rect b = on_screen(shown_.crop);
+    if (!shown_.other) return draw_layer(app, target, b_, shown_.placement, b, shown_.scale == 1);
+    const PixelRect& o = shown_.other_place;
+    const ImagePlacement other{double(o.x0), double(o.y0), double(o.x1), double(o.y1)};
+    Rect a = on_screen(o);
+    if (shown_.differs()) return draw_layer(app, target, b_, other, intersection(a, b), true);
+    const float wipe = screen_position(app, {shown_.wipe, 0}).x;
+    b.lower.x = std::max(b.lower.x, wipe);
+    a.upper.x = std::min(a.upper.x, wipe);
+    draw_layer(app, target, b_, shown_.placement, b, shown_.scale == 1);
+    draw_layer(app, target, a_, other, a, true);
+}
 
-    // Whole pixels keep their edges when magnified; coarse images blur between theirs.
-    const float zoom = zoom_in_use(app) * target.scale;
-    const bool crisp = shown_.scale == 1 && zoom >= 1;
+// Whole pixels keep their edges when magnified; coarse images blur between theirs.
+void Display::draw_layer(const App& app, const Target& target, const Layer& layer,
+                         const ImagePlacement& p, const Rect& part, bool whole_pixels) const {
+    const Rect place{screen_position(app, {p.x0, p.y0}), screen_position(app, {p.x1, p.y1})};
+    gl_.Enable(GL_SCISSOR_TEST);
+    scissor(gl_, part, target.scale, target.size);
+    const bool crisp = whole_pixels && zoom_in_use(app) * target.scale >= 1;
     const vec2 to_clip = 2 * target.scale / vec2(target.size);
     gl_.UseProgram(*image_program_);
     gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, *colours_);
+    gl_.BindTexture(GL_TEXTURE_2D, *layer.colours);
     filter(gl_, crisp ? GL_NEAREST : GL_LINEAR);
     gl_.Uniform1i(gl_.GetUniformLocation(*image_program_, "image"), 0);
     gl_.Uniform4f(gl_.GetUniformLocation(*image_program_, "rectangle"),

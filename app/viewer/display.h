@@ -1,6 +1,7 @@
 // The image on the screen. A snapshot is uploaded once, at its own resolution, and turned into
 // colours once (shaders/display.frag); a frame of the window then only draws that texture into the
-// view. Positions are in framebuffer pixels.
+// view. Where A is compared with B, it is a second image of the same kind. Positions are in
+// framebuffer pixels.
 #pragma once
 
 #include "display_maths.h"
@@ -26,14 +27,22 @@ class Display {
     bool empty() const { return !shown_.image; }
 
   private:
-    void upload(const Image& image);
-    void colour();
+    // The numbers of an image and their colours.
+    struct Layer {
+        explicit Layer(const Gl& gl);
+        std::shared_ptr<const Image> image;  // uploaded
+        GlHandle values, colours, target;
+        ivec2 values_size{0}, colours_size{0};
+    };
+    bool upload(Layer& layer, const std::shared_ptr<const Image>& image);
+    void colour(Layer& layer, const ivec2& size, const DisplayMaths& maths);
+    void draw_layer(const App& app, const Target& target, const Layer& layer,
+                    const ImagePlacement& place, const Rect& part, bool whole_pixels) const;
 
     const Gl& gl_;
     ShownImage shown_;
     GlHandle colour_program_, image_program_, empty_array_;
-    GlHandle values_, colours_, colour_target_;
-    ivec2 values_size_{0}, colours_size_{0};
+    Layer b_, a_;
 };
 
 // The lower left origin of GL is turned: rows from the top, three bytes a pixel.

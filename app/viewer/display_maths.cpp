@@ -1,5 +1,7 @@
 #include "display_maths.h"
 
+#include "comparison.h"
+
 namespace midway {
 namespace {
 
@@ -9,15 +11,23 @@ constexpr vec3 ramp[] = {{0.06f, 0.04f, 0.14f}, {0.20f, 0.14f, 0.44f}, {0.13f, 0
                          {0.94f, 0.76f, 0.22f}, {0.94f, 0.49f, 0.17f}, {0.86f, 0.21f, 0.22f},
                          {1.00f, 0.93f, 0.93f}};
 
-vec3 ramp_at(float x) {
-    const float p = std::clamp(x, 0.0f, 1.0f) * 9;
-    const int i = std::min(static_cast<int>(p), 8);
-    return glm::mix(ramp[i], ramp[i + 1], p - static_cast<float>(i));
+// Blue below zero, orange above; zero is nearly black, so that noise does not hide in grey. Told
+// apart by those who do not tell red from green.
+constexpr vec3 signed_colours[] = {
+    {0.72f, 0.90f, 1.00f}, {0.36f, 0.70f, 0.98f}, {0.16f, 0.47f, 0.88f}, {0.10f, 0.29f, 0.62f},
+    {0.07f, 0.15f, 0.31f}, {0.05f, 0.05f, 0.05f}, {0.31f, 0.14f, 0.05f}, {0.60f, 0.28f, 0.06f},
+    {0.86f, 0.45f, 0.10f}, {0.97f, 0.67f, 0.26f}, {1.00f, 0.90f, 0.66f}};
+
+vec3 ramp_at(std::span<const vec3> colours, float x) {
+    const auto last = static_cast<int>(colours.size()) - 1;
+    const float p = std::clamp(x, 0.0f, 1.0f) * static_cast<float>(last);
+    const auto i = static_cast<size_t>(std::min(static_cast<int>(p), last - 1));
+    return glm::mix(colours[i], colours[i + 1], p - static_cast<float>(i));
 }
 
 vec3 stops(const DisplayMaths& m, float light) {
     if (!(light > 0)) return vec3(0);
-    return ramp_at((std::log2(light) - m.range.x) / (m.range.y - m.range.x));
+    return ramp_at(ramp, (std::log2(light) - m.range.x) / (m.range.y - m.range.x));
 }
 
 vec3 object_colour(float number) {
@@ -114,6 +124,7 @@ float luminance_error(const vec3& variance) {
 }
 
 std::span<const vec3> stop_ramp() { return ramp; }
+std::span<const vec3> signed_ramp() { return signed_colours; }
 
 ShownImage shown_image(const App& app) {
     ShownImage shown;
@@ -133,6 +144,7 @@ ShownImage shown_image(const App& app) {
                 shown.maths.mode = DisplayMode::stops;
                 shown.maths.range = {d.stop_low, d.stop_high};
             }
+            show_comparison(app, shown);
             break;
         case Channel::error:
             show_error(s, exponent, shown);
@@ -163,11 +175,17 @@ vec3 shown_colour(const DisplayMaths& m, const vec3& v) {
         }
         case DisplayMode::object:
             return object_colour(v.x);
+        default:
+            return vec3(0);
     }
-    return vec3(0);
+}
+
+vec3 difference_colour(const DisplayMaths& m, float difference) {
+    return ramp_at(signed_colours, (difference * m.scale - m.range.x) / (m.range.y - m.range.x));
 }
 
 Image shown_colours(const ShownImage& shown) {
+    if (shown.other) return compared_colours(shown);
     Image encoded(shown.image->width, shown.image->height);
     for (size_t i = 0; i < encoded.pixels.size(); ++i)
         encoded.pixels[i] = shown_colour(shown.maths, shown.image->pixels[i]);

@@ -35,23 +35,20 @@ void draw_pixel_values(const App& app, const ShownImage& shown) {
     if (!app.display.pixel_values || !shown.image || shown.scale != 1 ||
         zoom < smallest_pixel * font)
         return;
-    const Image& image = *shown.image;
-    const ivec2 origin(int(shown.placement.x0), int(shown.placement.y0));
-    const ivec2 size(image.width, image.height);
-    const ivec2 first =
-        glm::clamp(ivec2(image_position(app, app.ui.view.lower)) - origin, ivec2(0), size);
-    const ivec2 end =
-        glm::clamp(ivec2(image_position(app, app.ui.view.upper)) - origin + 1, ivec2(0), size);
+    const ivec2 first(glm::floor(image_position(app, app.ui.view.lower)));
+    const ivec2 end = ivec2(glm::floor(image_position(app, app.ui.view.upper))) + 1;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect({app.ui.view.lower.x, app.ui.view.lower.y},
                       {app.ui.view.upper.x, app.ui.view.upper.y});
-    const int lines = is_scalar(app.display.channel) ? 1 : 3;
+    const int lines = is_scalar(app.display.channel) || shown.differs() ? 1 : 3;
     for (int y = first.y; y < end.y; ++y)
         for (int x = first.x; x < end.x; ++x) {
-            const vec3& v = image.at(x, y);
-            const bool bright = luminance(shown_colour(shown.maths, v)) > 0.5f;
+            const std::optional<SeenPixel> seen = seen_pixel(shown, {x, y});
+            if (!seen) continue;
+            const vec3& v = seen->value;
+            const bool bright = luminance(seen->colour) > 0.5f;
             const ImU32 ink = bright ? IM_COL32(0, 0, 0, 255) : IM_COL32(255, 255, 255, 230);
-            const vec2 centre = screen_position(app, vec2(origin + ivec2(x, y)) + 0.5f);
+            const vec2 centre = screen_position(app, vec2(x, y) + 0.5f);
             for (int i = 0; i < lines; ++i) {
                 char text[16];
                 print(text, v[i]);

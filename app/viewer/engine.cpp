@@ -163,6 +163,7 @@ News collect(App& app, Engine& engine) {
         if (!done->error.empty()) app.document.error = done->error;
         if (!done->notice.empty()) notify(app, done->notice, ImGui::GetTime());
     }
+    news.visible |= follow_comparison(app, engine);
     const bool channel =
         app.display.channel == Channel::albedo || app.display.channel == Channel::normal ||
         app.display.channel == Channel::depth || app.display.channel == Channel::object;

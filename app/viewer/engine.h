@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 
+#include "comparing.h"
 #include "inspector_engine.h"
 #include "render/loader.h"
 #include "state.h"
@@ -32,6 +33,7 @@ struct Engine {
     SceneUpdater updater{[this] { waker.wake(); }};
     Tasks tasks{[this] { waker.wake(); }};
     InspectEngine inspector{[this] { waker.wake(); }};
+    ComparingEngine comparing{[this] { waker.wake(); }};
 
     std::deque<SubmittedJob> jobs;             // the last few, oldest first
     RenderChoices applied;                     // to the newest job

@@ -128,6 +128,15 @@ void perform(App& app, Engine& engine, const Action& action) {
                 return save_session(app, engine, action.text);
             case ActionKind::copy_command_line:
                 return copy_command_line(app, engine);
+            case ActionKind::keep_image:
+                return keep_image(app, engine, action.text);
+            case ActionKind::load_reference:
+                return load_reference_file(app, engine, action.text);
+            case ActionKind::save_plot:
+                if (ending(action.text) != ".csv")
+                    throw std::runtime_error("unknown kind of plot (" + action.text +
+                                             "); use .png or .csv");
+                return save_curves(app, engine, action.text);
             case ActionKind::quit:
                 return;  // the loop's
         }

@@ -68,6 +68,23 @@ Change put_away(App& app) {
     return {};
 }
 
+// A tap changes over, holding shows A for as long (panels/compare_view.cpp).
+Change press_flip(App& app) {
+    if (app.compare.flip_pressed < 0) app.compare.flip_pressed = ImGui::GetTime();
+    return flip_to_a(app);
+}
+
+Change next_compare_view(App& app) {
+    switch (app.compare.view) {
+        case CompareView::wipe:
+            return choose_compare(app, CompareView::difference);
+        case CompareView::difference:
+            return choose_compare(app, CompareView::live);
+        default:
+            return choose_compare(app, CompareView::wipe);
+    }
+}
+
 Change type_path(App& app) {
     app.ui.panels = app.ui.panel.arrangement.right = true;
     app.ui.panel.arrangement.sections["Files"] = true;
@@ -112,6 +129,7 @@ Change request(App& app, ActionKind kind) {
 
 constexpr const char* how = "How light is found";
 constexpr const char* seen = "How it is shown";
+constexpr const char* against = "A against B";
 constexpr const char* where = "Camera";
 constexpr const char* run = "Run and files";
 constexpr const char* window = "Window";
@@ -152,6 +170,11 @@ const auto bindings = std::to_array<KeyBinding>({
     {seen, GLFW_KEY_KP_ADD, 0, "", "", [](A a) { return zoom_by(a, 1.25f); }},
     {seen, GLFW_KEY_MINUS, 0, "", "", [](A a) { return zoom_by(a, 0.8f); }},
     {seen, GLFW_KEY_KP_SUBTRACT, 0, "", "", [](A a) { return zoom_by(a, 0.8f); }},
+    {against, GLFW_KEY_Y, with_shift, "Shift+Y", "keep this image as A", keep_as_a},
+    {against, GLFW_KEY_Y, 0, "Y", "flip to A; held: while it is down", press_flip},
+    {against, GLFW_KEY_H, 0, "H", "next: wipe, difference, B alone", next_compare_view},
+    {against, GLFW_KEY_H, with_shift, "Shift+H", "plot of the error over time",
+     [](A a) { return toggle_shown(a.compare.large_plot); }},
     {where, GLFW_KEY_F, 0, "F or Home", "frame the whole scene", frame_whole_scene},
     {where, GLFW_KEY_HOME, 0, "", "", frame_whole_scene},
     {where, GLFW_KEY_L, 0, "L", "focus: then click a point",

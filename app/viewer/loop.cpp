@@ -8,6 +8,7 @@
 #include "files.h"
 #include "image/png.h"
 #include "panels/panels.h"
+#include "plot_drawing.h"
 #include "theme.h"
 
 namespace midway {
@@ -85,14 +86,17 @@ void update_image(Loop& l) {
     DisplayChoices choices = app.display;
     choices.zoom = 0;
     choices.pan = vec2(0);
+    const CompareLook look = compare_look(app);
     if (app.snapshot == l.shown_snapshot && app.channels == l.shown_channels &&
-        choices == l.shown_choices && app.render.exponent == l.shown_exponent)
+        choices == l.shown_choices && app.render.exponent == l.shown_exponent &&
+        look == l.shown_look)
         return;
     l.shown = shown_image(app);
     l.shown_snapshot = app.snapshot;
     l.shown_channels = app.channels;
     l.shown_choices = choices;
     l.shown_exponent = app.render.exponent;
+    l.shown_look = look;
     l.display.update(l.shown);
 }
 
@@ -131,12 +135,29 @@ void update_title(Loop& l) {
     l.host.set_title(title);
 }
 
+bool is_plot_picture(const Action& action) {
+    return action.kind == ActionKind::save_plot && action.text.ends_with(".png");
+}
+
+// Painted here, where OpenGL is; written beside the window.
+void save_plot_picture(Loop& l, const std::string& path) {
+    const ivec2 size(vec2(960, 600) * l.app.ui.scale);
+    const Plot plot = make_plot(l.app.compare, l.app.compare.metric);
+    l.engine.tasks.submit([path, size, rgb = paint_plot(*l.host.gl, l.painter, plot, size)] {
+        write_png_bytes(path, size.x, size.y, rgb);
+        return "saved " + path;
+    });
+}
+
 void act(Loop& l) {
     for (const std::string& path : l.host.dropped()) l.app.actions.push_back(action_of_drop(path));
     const std::vector<Action> actions = std::exchange(l.app.actions, {});
     for (const Action& action : actions) {
         if (action.kind == ActionKind::quit) l.quit = true;
-        perform(l.app, l.engine, action);
+        if (is_plot_picture(action))
+            save_plot_picture(l, action.text);
+        else
+            perform(l.app, l.engine, action);
     }
     if (!actions.empty()) l.frames_due = 3;
     save_waiting(l.app, l.engine);

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "comparison.h"
 #include "engine.h"
 #include "gl_lines.h"
 #include "gl_panels.h"
@@ -38,6 +39,7 @@ struct Loop {
     std::shared_ptr<const ChannelSnapshot> shown_channels;
     DisplayChoices shown_choices;
     double shown_exponent = -1;
+    CompareLook shown_look;
 
     Engine::Clock::time_point start = Engine::Clock::now();
     Engine::Clock::time_point last_frame = start;  // when it began

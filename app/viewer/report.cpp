@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "comparison.h"
 #include "image/file.h"
 
 namespace midway {
@@ -81,6 +82,43 @@ Json inspector_json(const InspectorState& s) {
     return j;
 }
 
+Json comparison_json(const App& app) {
+    const Comparison& c = app.compare;
+    constexpr const char* views[] = {"b", "a", "wipe", "difference"};
+    Json j{{"asked", views[static_cast<int>(c.view)]},
+           {"shown", views[static_cast<int>(view_in_use(app))]},
+           {"wipe", c.wipe},
+           {"a", caption_a(app)},
+           {"b", caption_b(app)},
+           {"refusal", view_refusal(app)},
+           {"remark", a_remark(app)},
+           {"bytes", kept_bytes(c)},
+           {"kept", Json::array()},
+           {"reference", nullptr}};
+    for (const KeptImage& k : c.kept) j["kept"].push_back(k.name);
+    if (c.reference)
+        j["reference"] = {{"path", c.reference->path}, {"refusal", c.reference->refusal}};
+    return j;
+}
+
+Json curves_json(const Comparison& c) {
+    Json list = Json::array();
+    for (const ErrorCurve& curve : c.curves) {
+        Json points = Json::array();
+        for (const CurvePoint& p : curve.points) {
+            Json point{{"seconds", p.seconds}, {"spp", p.spp}, {"estimate", p.estimate}};
+            if (p.measured) {
+                point["relmse"] = p.measured->relmse;
+                point["relmse_trimmed"] = p.measured->relmse_trimmed;
+                point["bias"] = p.measured->bias;
+            }
+            points.push_back(std::move(point));
+        }
+        list.push_back({{"label", curve.label}, {"points", std::move(points)}});
+    }
+    return list;
+}
+
 }  // namespace
 
 Mark mark_now(App& app) {
@@ -109,6 +147,9 @@ void write_report(const std::string& path, const App& app, const Mark& mark) {
     j["stops"] = summary(app.timings.stops);
     j["seconds"] = wall;
     j["cpu_seconds"] = now.cpu_seconds - mark.cpu_seconds;
+    for (const auto& [title, place] : app.ui.panel.section_places) j["sections"][title] = place;
+    j["compare"] = comparison_json(app);
+    j["curves"] = curves_json(app.compare);
     if (app.snapshot) {
         const Snapshot& s = *app.snapshot;
         j["job"] = s.job;

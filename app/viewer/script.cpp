@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -28,12 +29,13 @@ struct Verb {
     size_t least, most;  // words after it
 };
 constexpr Verb verbs[] = {
-    {"open", 1, 1},       {"set", 2, 2},     {"camera", 2, 3},       {"key", 1, 1},
-    {"type", 1, 1},       {"move", 2, 2},    {"click", 2, 3},        {"drag", 4, 5},
-    {"scroll", 3, 3},     {"drop", 1, 1},    {"resize", 1, 1},       {"wait", 1, 2},
-    {"screenshot", 1, 1}, {"save", 1, 1},    {"save-session", 1, 1}, {"copy", 1, 1},
-    {"report", 1, 1},     {"mark", 0, 0},    {"reload", 0, 0},       {"timeout", 1, 1},
-    {"quit", 0, 0},       {"inspect", 1, 2}, {"hands", 1, 1}};
+    {"open", 1, 1},       {"set", 2, 2},      {"camera", 2, 3},       {"key", 1, 1},
+    {"type", 1, 1},       {"move", 2, 2},     {"click", 2, 3},        {"drag", 4, 5},
+    {"scroll", 3, 3},     {"drop", 1, 1},     {"resize", 1, 1},       {"wait", 1, 2},
+    {"screenshot", 1, 1}, {"save", 1, 1},     {"save-session", 1, 1}, {"copy", 1, 1},
+    {"report", 1, 1},     {"mark", 0, 0},     {"reload", 0, 0},       {"timeout", 1, 1},
+    {"quit", 0, 0},       {"inspect", 1, 2},  {"hands", 1, 1},        {"keep", 0, 1},
+    {"reference", 1, 1},  {"save-plot", 1, 1}};
 
 std::vector<std::string> words_of(const std::string& line) {
     std::vector<std::string> words;
@@ -80,12 +82,15 @@ bool has_come(const ScriptPlayer& p, const std::vector<std::string>& w, const Ap
     };
     if (what == "seconds") return seconds_waited(p) >= argument();
     if (what == "frames") return p.waiting_frames >= argument();
+    if (what == "file") return w.size() > 2 && std::filesystem::exists(w[2]);
     if (what == "reload") return app.document.prepared != p.scene_then;
     if (what == "loaded") return p.waiting_frames >= 2 && loaded(app, engine);
     if (what == "saved") return engine.save_later.empty() && !engine.tasks.busy();
     // What was just asked for reaches the renderer at the end of the frame.
     if (p.waiting_frames < 2 || !loaded(app, engine)) return false;
     if (what == "image") return newest_shown(app, engine);
+    if (what == "measured")
+        return newest_shown(app, engine) && !engine.tasks.busy() && is_measured(app, engine);
     if (what == "spp")
         return newest_shown(app, engine) && app.snapshot->scale == 1 &&
                double(app.snapshot->passes) >= argument();
@@ -169,6 +174,12 @@ ScriptStep carry_out(ScriptPlayer& p, const std::vector<std::string>& w, App& ap
         ask(app, ActionKind::save_session, w[1]);
     else if (verb == "drop")
         app.actions.push_back(action_of_drop(w[1]));
+    else if (verb == "keep")
+        ask(app, ActionKind::keep_image, w.size() > 1 ? w[1] : "");
+    else if (verb == "reference")
+        ask(app, ActionKind::load_reference, w[1] == "none" ? "" : w[1]);
+    else if (verb == "save-plot")
+        ask(app, ActionKind::save_plot, w[1]);
     else if (verb == "set")
         step.change = set_value(app, w[1], w[2]);
     else if (verb == "camera")

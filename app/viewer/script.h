@@ -6,18 +6,20 @@
 //   move X Y             click X Y [right|double]          drag X0 Y0 X1 Y1 [right|middle]
 //   scroll X Y STEPS     drop FILE                         resize WIDTHxHEIGHT
 //   wait loaded | image | spp N | idle | saved | reload | seconds X
-//        | frames N | inspected
+//        | frames N | inspected | measured | file F (until there is such a file)
 //   inspect X,Y[,SAMPLE|,brightest] | brightest | nonfinite | path N | off
 //   screenshot F.png     save F.exr|F.png                  save-session F.midway
 //   copy F.txt           report F.json                     mark        reload
+//   keep [NAME]          reference FILE|none               save-plot F.png|F.csv
 //   timeout SECONDS      hands on|off                      quit
 //
 // Each action takes at least one frame of the window. `wait` fails after the timeout (120 s at
 // first). `mark` starts the measurements of `report` anew. `orbit` turns by degrees, `look` too,
 // `dolly` scales the distance to the pivot. `inspect` opens the path inspector on a pixel of the
-// image; `path N` picks the N-th of its list, from 0 on; `wait inspected` until all is there. After
-// `hands off` mouse and keys are the desktop's. A line that cannot be carried out ends the window
-// with exit status 1 and one line that names it.
+// image; `path N` picks the N-th of its list, from 0 on; `wait inspected` until all is there.
+// `keep` makes the shown image A, at its first whole pass; `wait measured` until the error of the
+// newest image is known. After `hands off` mouse and keys are the desktop's. A line that cannot be
+// carried out ends the window with exit status 1 and one line that names it.
 #pragma once
 
 #include <deque>

@@ -68,6 +68,16 @@ constexpr std::pair<const char*, Channel> channels[] = {
     {"depth", Channel::depth},    {"object", Channel::object}, {"error", Channel::error},
     {"samples", Channel::samples}};
 
+constexpr std::pair<const char*, CompareView> compare_views[] = {
+    {"b", CompareView::live},
+    {"a", CompareView::kept},
+    {"wipe", CompareView::wipe},
+    {"difference", CompareView::difference}};
+constexpr std::pair<const char*, ErrorMetric> metrics[] = {{"relmse", ErrorMetric::relmse},
+                                                           {"trimmed", ErrorMetric::trimmed},
+                                                           {"bias", ErrorMetric::bias},
+                                                           {"estimate", ErrorMetric::estimate}};
+
 template <class T, size_t N>
 std::string name_of(T value, const std::pair<const char*, T> (&words)[N]) {
     for (const auto& [name, meaning] : words)
@@ -130,6 +140,42 @@ Change set_stops(App& app, Text key, Text value) {
     if (!(n[0] < n[1])) refuse(key, value, "give LOW,HIGH");
     app.display.stop_low = static_cast<float>(n[0]);
     app.display.stop_high = static_cast<float>(n[1]);
+    return display;
+}
+
+// The kept image of this name or number (counted from 1) is A, or the reference.
+Change set_compare_with(App& app, Text key, Text value) {
+    Comparison& c = app.compare;
+    if (value == "reference") {
+        c.chosen = reference_id;
+        return display;
+    }
+    for (size_t i = 0; i < c.kept.size(); ++i)
+        if (value == c.kept[i].name || value == std::to_string(i + 1)) {
+            c.chosen = c.kept[i].id;
+            return display;
+        }
+    refuse(key, value, "give the name or number of a kept image, or reference");
+}
+
+// absolute, relative, or either with the end of its scale: "relative:0.5".
+Change set_difference(App& app, Text key, Text value) {
+    const size_t colon = value.find(':');
+    const std::string kind = value.substr(0, colon);
+    if (kind != "absolute" && kind != "relative") refuse(key, value, "use absolute or relative");
+    Comparison& c = app.compare;
+    c.relative = kind == "relative";
+    if (colon != std::string::npos)
+        (c.relative ? c.relative_range : c.range) =
+            static_cast<float>(number(key, value.substr(colon + 1), 1e-6, 1e6));
+    return display;
+}
+
+// Opens a section of the columns by its title and closes all others.
+Change open_section(App& app, Text, Text value) {
+    Arrangement& a = app.ui.panel.arrangement;
+    for (const auto& [title, place] : app.ui.panel.section_places) a.sections[title] = false;
+    a.sections[value] = true;
     return display;
 }
 
@@ -247,6 +293,16 @@ constexpr Key display_keys[] = {
      }},
     {"pixel-values",
      [](App& a, Text k, Text v) { return a.display.pixel_values = on_off(k, v), display; }},
+    {"compare",
+     [](App& a, Text k, Text v) { return a.compare.view = word(k, v, compare_views), display; }},
+    {"compare-with", set_compare_with},
+    {"wipe",
+     [](App& a, Text k, Text v) { return a.compare.wipe = float(number(k, v, 0, 1)), display; }},
+    {"difference", set_difference},
+    {"plot", [](App& a, Text k, Text v) { return a.compare.large_plot = on_off(k, v), display; }},
+    {"metric",
+     [](App& a, Text k, Text v) { return a.compare.metric = word(k, v, metrics), display; }},
+    {"section", open_section},
     {"views", set_views},
     {"panels", [](App& a, Text k, Text v) { return a.ui.panels = on_off(k, v), display; }},
     {"keys", [](App& a, Text k, Text v) { return a.ui.keys = on_off(k, v), display; }},

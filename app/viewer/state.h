@@ -13,6 +13,7 @@
 #include "render/live_render.h"
 #include "render/session.h"
 #include "viewer/camera_control.h"
+#include "viewer/compare_state.h"
 #include "viewer/ui_state.h"
 
 namespace midway {
@@ -124,7 +125,10 @@ enum class ActionKind {
     save_image,         // text: path of .exr (as midway render writes it) or .png (as seen)
     save_session,       // text: path of .midway
     copy_command_line,  // to the clipboard
-    quit
+    quit,
+    keep_image,      // text: its name, or empty
+    load_reference,  // text: path of .exr, .hdr or .film; empty: none any more
+    save_plot        // text: path of .png or .csv
 };
 
 struct Action {
@@ -145,6 +149,7 @@ struct App {
     RenderChoices render;
     CameraChoices camera;
     DisplayChoices display;
+    Comparison compare;
     Ui ui;
     std::shared_ptr<const Snapshot> snapshot;         // the newest; null before the first
     std::shared_ptr<const ChannelSnapshot> channels;  // albedo ... while one is shown

@@ -6,6 +6,8 @@
 #include <random>
 #include <thread>
 
+#include "report/error_log.h"
+#include "viewer/error_meter.h"
 #include "viewer/tasks.h"
 #include "viewer/update.h"
 
@@ -116,6 +118,104 @@ TEST(Tasks, RunInOrderAndFinishBeforeTheEnd) {
         }
     }
     EXPECT_EQ(order, "abcde");
+}
+
+// A snapshot of a whole image of 16 x 12, or of a part of it, two exponents from the same paths.
+std::shared_ptr<const Snapshot> made_up_snapshot(std::uint64_t passes, const PixelRect& crop) {
+    auto s = std::make_shared<Snapshot>();
+    s->job = 3;
+    s->width = 16;
+    s->height = 12;
+    s->crop = crop;
+    s->exponents = {0, 2};
+    s->passes = passes;
+    s->seconds = 0.5 * double(passes);
+    std::mt19937 random(static_cast<unsigned>(passes));
+    std::uniform_real_distribution<float> value(0.5f, 1);
+    for (int i = 0; i < 2; ++i) {
+        auto image = std::make_shared<Image>(crop.width(), crop.height());
+        auto variance = std::make_shared<Image>(crop.width(), crop.height());
+        for (size_t k = 0; k < image->pixels.size(); ++k) {
+            image->pixels[k] = vec3(value(random));
+            variance->pixels[k] = vec3(0.01f * value(random));
+        }
+        s->images.push_back(image);
+        s->variances.push_back(variance);
+    }
+    return s;
+}
+
+std::shared_ptr<const Reference> made_up_reference(int width, int height) {
+    auto r = std::make_shared<Reference>();
+    r->image = Image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) r->image.at(x, y) = vec3(0.5f + 0.02f * float(x + y));
+    return r;
+}
+
+TEST(ErrorMeter, MeasuresWhatTheErrorLogDoes) {
+    std::atomic<int> calls = 0;
+    ErrorMeter meter([&] { ++calls; });
+    const auto snapshot = made_up_snapshot(8, {0, 0, 16, 12});
+    const auto reference = made_up_reference(16, 12);
+    meter.submit({snapshot, reference});
+    EXPECT_TRUE(meter.busy());
+    const auto m = wait_for([&] { return meter.take(); });
+    ASSERT_TRUE(m);
+    EXPECT_FALSE(meter.busy());
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(m->job, 3u);
+    EXPECT_EQ(m->passes, 8u);
+    ASSERT_EQ(m->points.size(), 2u);
+    for (size_t i = 0; i < 2; ++i) {
+        const ErrorPoint p = measure_error(*reference, *snapshot->images[i], 8, {4, 0});
+        EXPECT_EQ(m->points[i].measured->relmse, p.relmse);
+        EXPECT_EQ(m->points[i].measured->relmse_trimmed, p.relmse_trimmed);
+        EXPECT_EQ(m->points[i].measured->bias, p.bias);
+        EXPECT_EQ(m->points[i].estimate,
+                  estimate_relmse(*snapshot->images[i], *snapshot->variances[i], {4, 4}).value());
+        EXPECT_EQ(m->points[i].seconds, 4);
+    }
+}
+
+TEST(ErrorMeter, OfARegionTakesThatPartOfTheReference) {
+    const PixelRect crop{3, 2, 11, 9};
+    const auto whole = made_up_reference(16, 12);
+    auto part = std::make_shared<Reference>();
+    part->image = Image(8, 7);
+    for (int y = 0; y < 7; ++y)
+        for (int x = 0; x < 8; ++x) part->image.at(x, y) = whole->image.at(3 + x, 2 + y);
+    const auto snapshot = made_up_snapshot(4, crop);
+    EXPECT_EQ(measure({snapshot, whole})[0].measured->relmse,
+              measure({snapshot, part})[0].measured->relmse);
+    EXPECT_THROW(measure({snapshot, made_up_reference(12, 16)}), std::runtime_error);
+    ErrorMeter meter([] {});
+    meter.submit({snapshot, made_up_reference(12, 16)});
+    const auto m = wait_for([&] { return meter.take(); });
+    ASSERT_TRUE(m);
+    EXPECT_TRUE(m->points.empty());
+    EXPECT_NE(m->error.find("12x16"), std::string::npos);
+}
+
+TEST(ErrorMeter, TheNewestComesLastAndNoneIsMixed) {
+    ErrorMeter meter([] {});
+    std::uint64_t last = 0;
+    const auto take = [&] {
+        while (const auto m = meter.take()) {
+            EXPECT_GT(m->passes, last);
+            last = m->passes;
+            EXPECT_EQ(m->points[0].spp, last);
+        }
+    };
+    for (std::uint64_t n = 2; n <= 300; ++n) {
+        meter.submit({made_up_snapshot(n, {0, 0, 16, 12}), nullptr});
+        take();
+    }
+    wait_for([&]() -> std::optional<int> {
+        take();
+        return last == 300 ? std::optional<int>(1) : std::nullopt;
+    });
+    EXPECT_EQ(last, 300u);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "viewer/display_maths.h"
+#include "viewer/comparison.h"
 #include "viewer/panels/parts.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
@@ -101,6 +101,7 @@ struct Legend {
 
 std::optional<Legend> legend_of(const App& app) {
     const DisplayChoices& d = app.display;
+    if (view_in_use(app) == CompareView::difference) return {};
     if (d.channel == Channel::image && d.false_colour)
         return Legend{"luminance after exposure, in stops", d.stop_low, d.stop_high};
     if (d.channel == Channel::error)

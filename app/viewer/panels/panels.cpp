@@ -7,7 +7,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 16> table = {{
+constexpr std::array<Panel, 19> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
@@ -16,10 +16,13 @@ constexpr std::array<Panel, 16> table = {{
     {"sampling", draw_sampling},
     {"inspector", draw_inspector},
     {"display", draw_display},
+    {"compare", draw_compare},
+    {"error plot", draw_error_plot},
     {"scene", draw_scene},
     {"files", draw_files},
     {"messages", draw_messages},
     {"status", draw_status},
+    {"compare view", draw_compare_view},
     {"overlays", draw_overlays},
     {"gallery", draw_gallery},
     {"keys", draw_keys},

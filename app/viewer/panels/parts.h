@@ -20,6 +20,8 @@ Change draw_camera(App& app);
 // Right column.
 Change draw_display(App& app);
 Change draw_scene(App& app);
+Change draw_compare(App& app);
+Change draw_error_plot(App& app);
 Change draw_files(App& app);
 Change draw_messages(App& app);
 
@@ -28,6 +30,7 @@ Change draw_status(App& app);
 Change draw_overlays(App& app);   // loading, notices, default sky, legend
 Change draw_inspector(App& app);  // the dock below, the lines' names, the pixel under the mouse
 Change draw_gallery(App& app);
+Change draw_compare_view(App& app);  // line of the wipe, captions, scale of differences
 Change draw_tour(App& app);
 
 // What both a control and a key do.
@@ -35,6 +38,9 @@ Change choose_technique(App& app, Technique technique);
 Change choose_exponent(App& app, double exponent);
 Change choose_same_paths(App& app, bool on);
 Change restart(App& app);
+Change choose_compare(App& app, CompareView view);  // stays where there is no A
+Change keep_as_a(App& app);
+Change flip_to_a(App& app);  // and back
 Change frame_whole_scene(App& app);
 Change store_bookmark(App& app);
 Change recall_bookmark(App& app, int index);
