@@ -123,6 +123,7 @@ void convert_core(Context& context, const tinygltf::Material& in, Material& out)
         clamped(document, in.normalTexture.scale, -huge, huge, name + " normal scale");
     out.emission =
         clamped_color(document, in.emissiveFactor, vec3(0), huge, name + " emissiveFactor");
+    out.emissive_factor = out.emission;
     out.alpha_cutoff = clamped(document, in.alphaCutoff, 0, huge, name + " alphaCutoff");
     out.double_sided = in.doubleSided;
     if (in.alphaMode == "MASK") out.alpha_mode = AlphaMode::mask;
@@ -154,8 +155,9 @@ void convert_extensions(Context& context, const tinygltf::Material& in, Material
     Document& document = context.document;
     const std::string& name = context.name;
     if (const auto* e = extension(in.extensions, "KHR_materials_emissive_strength")) {
-        out.emission *= clamped(document, number(*e, "emissiveStrength", 1), 0, huge,
-                                name + " emissiveStrength");
+        out.emissive_strength = clamped(document, number(*e, "emissiveStrength", 1), 0, huge,
+                                        name + " emissiveStrength");
+        out.emission *= out.emissive_strength;
         if (!is_finite(out.emission)) fail(document.path, name + " emits infinite light");
     }
     if (const auto* e = extension(in.extensions, "KHR_materials_transmission")) {

@@ -1,18 +1,9 @@
-#include <cstring>
-#include <stdexcept>
-
-#include "math/hash.h"
+#include "scene/build_lights.h"
 #include "scene/duplicates.h"
 #include "scene/scene.h"
 
 namespace midway {
 namespace {
-
-constexpr double pi_d = 3.14159265358979323846;
-// The share of next event's picks that is spread evenly, so that a weak lamp close by is found.
-constexpr double even_share = 0.2;
-
-double mean(const vec3& c) { return (double(c.x) + c.y + c.z) / 3; }
 
 template <class Visit>
 void for_each_position(const SceneDescription& d, const Visit& visit) {
@@ -70,13 +61,6 @@ void copy_triangles(const Mesh& mesh, bool mirrored, Object& o, size_t& dropped)
     }
 }
 
-// What traversal has to know of an object's material.
-struct ObjectFacts {
-    bool may_be_transparent = false;
-    bool closed = false;
-    bool operator==(const ObjectFacts&) const = default;
-};
-
 bool any_alpha(const SceneDescription& d, const Material& m, const Mesh& mesh) {
     if (m.alpha_mode == AlphaMode::opaque) return false;
     const float limit = m.alpha_mode == AlphaMode::mask ? m.alpha_cutoff : 1.0f;
@@ -88,16 +72,6 @@ bool any_alpha(const SceneDescription& d, const Material& m, const Mesh& mesh) {
     for (size_t i = 3; i < image.rgba.size(); i += 4)
         if (image.rgba[i] < 255) return true;
     return false;
-}
-
-ObjectFacts object_facts(const SceneDescription& d, const Object& o) {
-    const Instance& i = d.instances[o.instance];
-    const Material& material = d.materials[i.material];
-    ObjectFacts f;
-    f.may_be_transparent = any_alpha(d, material, *d.meshes[i.mesh]);
-    f.closed = material.transmission > 0 &&
-               (material.has_thickness || is_closed_mesh(o.positions, o.triangles));
-    return f;
 }
 
 std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool normalised) {
@@ -116,9 +90,8 @@ std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool n
         transform_vertices(mesh, i.to_world, g->normalisation, o);
         copy_triangles(mesh, glm::determinant(dmat3(i.to_world)) < 0, o, g->dropped);
         if (o.triangles.empty()) continue;
-        const ObjectFacts facts = object_facts(d, o);
-        o.may_be_transparent = facts.may_be_transparent;
-        o.closed = facts.closed;
+        o.may_be_transparent = any_alpha(d, d.materials[i.material], mesh);
+        o.closed = is_closed_mesh(o.positions, o.triangles);
         g->objects.push_back(std::move(o));
     }
     g->duplicates = remove_duplicate_triangles(g->objects);
@@ -131,106 +104,23 @@ std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool n
     return g;
 }
 
+// As far as any_alpha() looks at a material.
+bool same_alpha(const Material& a, const Material& b) {
+    return a.alpha_mode == b.alpha_mode && a.alpha == b.alpha && a.alpha_cutoff == b.alpha_cutoff &&
+           a.base_color_texture == b.base_color_texture;
+}
+
 // Whether the geometry and its tree would come out the same for these materials.
-bool still_fits(const Geometry& g, const SceneDescription& d) {
-    for (const Object& o : g.objects)
-        if (d.instances[o.instance].material != o.material ||
-            object_facts(d, o) != ObjectFacts{o.may_be_transparent, o.closed})
-            return false;
+bool still_fits(const Scene& previous, const SceneDescription& d) {
+    const bool same_images = previous.textures == d.images;
+    for (const Object& o : previous.geometry->objects) {
+        const Instance& i = d.instances[o.instance];
+        if (i.material != o.material) return false;
+        const Material& m = d.materials[i.material];
+        if (same_images && same_alpha(m, previous.materials[i.material])) continue;
+        if (any_alpha(d, m, *d.meshes[i.mesh]) != o.may_be_transparent) return false;
+    }
     return true;
-}
-
-// Mean emission of a triangle, coverage included. A small share of the material's own emission
-// keeps it positive wherever a texel between the probes may shine.
-double mean_emission(const Scene& s, const Object& o, int object, int triangle) {
-    const Material& m = s.materials[o.material];
-    if (!m.emission_texture.used() && !o.may_be_transparent) return mean(m.emission);
-    constexpr int n = 6;
-    double sum = 0;
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; i + j < n; ++j) {
-            const TriangleHit at{object, triangle, (i + 1 / 3.0f) / n, (j + 1 / 3.0f) / n};
-            const ShadingPoint p = surface_point(o, at).shading;
-            sum += mean(material_emission(m, s.textures, p)) * material_alpha(m, s.textures, p);
-        }
-    return sum / (n * (n + 1) / 2) + 1e-3 * mean(m.emission);
-}
-
-void add_area_lights(Scene& s, float lamp_strength) {
-    s.first_light.assign(s.geometry->objects.size(), -1);
-    for (Material& m : s.materials) m.emission *= lamp_strength;
-    for (size_t k = 0; k < s.geometry->objects.size(); ++k) {
-        const Object& o = s.geometry->objects[k];
-        const Material& m = s.materials[o.material];
-        if (!(mean(m.emission) > 0)) continue;
-        s.first_light[k] = static_cast<int>(s.lights.size());
-        for (size_t t = 0; t < o.triangles.size(); ++t) {
-            const TriangleShape shape = triangle_shape(o, static_cast<int>(t));
-            Light l;
-            l.kind = LightKind::area;
-            l.object = static_cast<int>(k);
-            l.triangle = static_cast<int>(t);
-            l.area = shape.area;
-            l.two_sided = m.double_sided;
-            l.power = pi_d * shape.area * (l.two_sided ? 2 : 1) *
-                      mean_emission(s, o, l.object, l.triangle);
-            s.lights.push_back(l);
-        }
-    }
-}
-
-Light make_punctual(const PunctualLight& d, const Scene& s, float lamp_strength) {
-    const Normalisation& n = s.geometry->normalisation;
-    Light l;
-    const vec3 color = d.color * (d.intensity * lamp_strength);
-    l.direction = vec3(-glm::normalize(dvec3(d.to_world[2])));
-    if (d.kind == PunctualKind::directional) {
-        l.kind = LightKind::directional;
-        l.emission = color;
-        l.power = mean(color) * pi_d * s.radius * s.radius;
-        return l;
-    }
-    l.position = vec3((dvec3(d.to_world[3]) - n.center) * n.scale);
-    // Irradiance is intensity over distance squared, and distances are scaled.
-    l.emission = vec3(dvec3(color) * (n.scale * n.scale));
-    l.kind = d.kind == PunctualKind::spot ? LightKind::spot : LightKind::point;
-    double solid_angle = 4 * pi_d;
-    if (d.kind == PunctualKind::spot) {
-        l.cos_inner = std::cos(d.inner_cone_angle);
-        l.cos_outer = std::cos(d.outer_cone_angle);
-        solid_angle = 2 * pi_d * ((1.0 - l.cos_inner) + (double(l.cos_inner) - l.cos_outer) / 3);
-    }
-    l.power = mean(l.emission) * solid_angle;
-    return l;
-}
-
-void add_sky(Scene& s, const SkyDescription& d) {
-    s.sky = make_sky(d);
-    if (!(s.sky->mean_radiance > 0)) return;
-    Light l;
-    l.kind = LightKind::sky;
-    l.power = 4 * pi_d * s.sky->mean_radiance * pi_d * s.radius * s.radius;
-    s.sky_light = static_cast<int>(s.lights.size());
-    s.lights.push_back(l);
-}
-
-void make_light_tables(Scene& s) {
-    std::vector<double> power, next_event;
-    size_t shining = 0;
-    for (const Light& l : s.lights) {
-        power.push_back(l.power);
-        s.total_power += l.power;
-        shining += l.power > 0;
-    }
-    if (!std::isfinite(s.total_power))
-        throw std::runtime_error(
-            "the lights' power is not finite (emission or intensity); use smaller numbers");
-    for (const Light& l : s.lights)
-        next_event.push_back(l.power > 0 ? (1 - even_share) * l.power / s.total_power +
-                                               even_share / double(shining)
-                                         : 0.0);
-    s.emission_pick = make_distribution(power);
-    s.next_event_pick = make_distribution(next_event);
 }
 
 }  // namespace
@@ -249,7 +139,7 @@ std::optional<Bounds> scene_bounds(const SceneDescription& d) {
 Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
                   const BuildOptions& options) {
     Scene s;
-    if (options.previous && still_fits(*options.previous->geometry, d)) {
+    if (options.previous && still_fits(*options.previous, d)) {
         s.geometry = options.previous->geometry;
         s.accel = options.previous->accel;
     } else {
@@ -267,11 +157,7 @@ Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
     // A margin for the rounding of positions, so that the disc covers everything.
     s.radius = s.geometry->radius * (1 + 0x1p-20f);
     for (const Object& o : s.geometry->objects) s.has_transparency |= o.may_be_transparent;
-    add_area_lights(s, d.lamp_strength);
-    for (const PunctualLight& l : d.lights)
-        s.lights.push_back(make_punctual(l, s, d.lamp_strength));
-    if (d.sky) add_sky(s, *d.sky);
-    make_light_tables(s);
+    build_lights(s, d, options.previous);
     return s;
 }
 

@@ -1,8 +1,6 @@
 #include "scene/geometry.h"
 
-#include <cstring>
-#include <map>
-#include <tuple>
+#include "math/hash.h"
 
 namespace midway {
 namespace {
@@ -67,26 +65,19 @@ TriangleShape triangle_shape(const Object& o, int triangle) {
 }
 
 bool is_closed_mesh(const std::vector<vec3>& positions, const std::vector<uvec3>& triangles) {
-    using Point = std::tuple<float, float, float>;
-    std::map<Point, int> ids;
-    std::map<std::pair<int, int>, int> edges;
-    const auto id = [&](std::uint32_t v) {
-        const vec3& p = positions[v];
-        return ids.emplace(Point(p.x, p.y, p.z), static_cast<int>(ids.size())).first->second;
-    };
-    for (const uvec3& t : triangles) {
-        const int v[3] = {id(t.x), id(t.y), id(t.z)};
-        for (int k = 0; k < 3; ++k) {
-            const int a = v[k], b = v[(k + 1) % 3];
-            if (a < b)
-                ++edges[{a, b}];
-            else
-                --edges[{b, a}];
-        }
+    std::vector<std::uint64_t> places;
+    places.reserve(positions.size());
+    for (const vec3& v : positions) {
+        const vec3 p = v + 0.0f;  // one zero for both of float's
+        places.push_back(hash_bytes(0, &p, sizeof p));
     }
-    for (const auto& [edge, balance] : edges)
-        if (balance != 0) return false;
-    return !triangles.empty();
+    std::uint64_t balance = 0;
+    for (const uvec3& t : triangles)
+        for (int k = 0; k < 3; ++k) {
+            const std::uint64_t a = places[t[k]], b = places[t[(k + 1) % 3]];
+            balance += a < b ? hash_combine(a, b) : -hash_combine(b, a);
+        }
+    return balance == 0 && !triangles.empty();
 }
 
 }  // namespace midway

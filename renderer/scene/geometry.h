@@ -73,6 +73,9 @@ struct TriangleShape {
 };
 TriangleShape triangle_shape(const Object& object, int triangle);
 
+// Whether every edge has as many triangles in one direction as in the other; vertices at the same
+// place are one. A sum of hashes over the directed edges: linear time, and a mesh that is open
+// passes for closed once in 2^64.
 bool is_closed_mesh(const std::vector<vec3>& positions, const std::vector<uvec3>& triangles);
 
 }  // namespace midway

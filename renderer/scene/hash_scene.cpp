@@ -10,6 +10,7 @@ namespace {
 // Feeds values in a fixed order; padding is never read.
 class Hasher {
   public:
+    explicit Hasher(std::uint64_t state = 0) : state_(state) {}
     void bytes(const void* data, size_t n) { state_ = hash_bytes(state_, data, n); }
     template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T>
@@ -33,7 +34,7 @@ class Hasher {
     std::uint64_t value() const { return state_; }
 
   private:
-    std::uint64_t state_ = 0;
+    std::uint64_t state_;
 };
 
 void add_material(Hasher& h, const Material& m) {
@@ -96,7 +97,12 @@ std::uint64_t hash_content(const SceneDescription& d) {
     for (const auto& m : d.meshes) add_mesh(h, *m);
     for (const auto& image : d.images)
         if (image) h.add(image->rgba);
-    if (d.sky && d.sky->map) h.add(d.sky->map->pixels);
+    return h.value();
+}
+
+std::uint64_t hash_sky_map(std::uint64_t content, const Image& map) {
+    Hasher h(content);
+    h.add(map.pixels);
     return h.value();
 }
 

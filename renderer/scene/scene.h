@@ -14,6 +14,10 @@
 
 namespace midway {
 
+// Of one object: for each triangle the share of the material's emission that textures and coverage
+// leave on the average.
+using EmissionMeans = std::shared_ptr<const std::vector<vec3>>;
+
 struct Scene {
     std::shared_ptr<const Geometry> geometry;
     std::shared_ptr<const Accel> accel;
@@ -25,8 +29,9 @@ struct Scene {
     std::optional<Sky> sky;
     int sky_light = -1;
     std::vector<int> first_light;  // of each object: the light of its triangle 0, or -1
-    float radius = 1;              // of the bounding disc that infinite lights emit from
-    double total_power = 0;        // of all lights, mean of RGB, in scene units
+    std::vector<EmissionMeans> emission_means;  // of each object, null where they are one
+    float radius = 1;        // of the bounding disc that infinite lights emit from
+    double total_power = 0;  // of all lights, mean of RGB, in scene units
     bool has_transparency = false;
 };
 
@@ -47,9 +52,11 @@ struct Bounds {
 };
 std::optional<Bounds> scene_bounds(const SceneDescription& description);
 
-// Hash of everything in a description and a camera that can change an image. `content` is
-// hash_content() of the description: the large part, which edits of lights and materials keep.
-std::uint64_t hash_content(const SceneDescription& description);  // meshes, images, sky map
+// Hash of everything in a description and a camera that can change an image. `content` is the large
+// part, which edits of lights and materials keep: hash_content() of meshes and images, gone on with
+// by hash_sky_map() where the sky has a map.
+std::uint64_t hash_content(const SceneDescription& description);
+std::uint64_t hash_sky_map(std::uint64_t content, const Image& map);
 std::uint64_t hash_scene(std::uint64_t content, const SceneDescription& description,
                          const CameraDescription& camera);
 

@@ -57,9 +57,22 @@ void check_map(const Image& m, const std::string& source) {
     }
 }
 
+std::shared_ptr<const Distribution2D> make_cells(const Sky& s, const std::string& source) {
+    check_map(*s.map, source);
+    std::vector<double> weights(s.map->pixels.size());
+    for (int y = 0; y < s.map->height; ++y) {
+        const double solid_angle = cell_solid_angle(s, y);
+        for (int x = 0; x < s.map->width; ++x)
+            weights[static_cast<size_t>(y) * s.map->width + x] =
+                cell_mean(*s.map, x, y) * solid_angle;
+    }
+    return std::make_shared<const Distribution2D>(
+        make_distribution_2d(weights, s.map->width, s.map->height));
+}
+
 }  // namespace
 
-Sky make_sky(const SkyDescription& d) {
+Sky make_sky(const SkyDescription& d, const Sky* previous) {
     Sky s;
     s.map = d.map;
     s.scale = d.color * d.strength;
@@ -71,14 +84,9 @@ Sky make_sky(const SkyDescription& d) {
         s.mean_radiance = scale_mean;
         return s;
     }
-    check_map(*s.map, d.source);
-    std::vector<double> weights(s.map->pixels.size());
-    for (int y = 0; y < s.map->height; ++y)
-        for (int x = 0; x < s.map->width; ++x)
-            weights[static_cast<size_t>(y) * s.map->width + x] =
-                cell_mean(*s.map, x, y) * cell_solid_angle(s, y);
-    s.cells = make_distribution_2d(weights, s.map->width, s.map->height);
-    s.mean_radiance = static_cast<float>(s.cells.rows.total / (4 * glm::pi<double>())) * scale_mean;
+    s.cells = previous && previous->map == s.map ? previous->cells : make_cells(s, d.source);
+    s.mean_radiance =
+        static_cast<float>(s.cells->rows.total / (4 * glm::pi<double>())) * scale_mean;
     return s;
 }
 
@@ -113,12 +121,12 @@ vec3 sky_radiance(const Sky& s, const vec3& direction) {
 float sky_pdf_w(const Sky& s, const vec3& direction) {
     if (!s.map) return sphere_pdf_w;
     const ivec2 c = map_cell(s, map_position(s, rotate(s, direction, -1)));
-    return static_cast<float>(cell_probability(s.cells, c.x, c.y) / cell_solid_angle(s, c.y));
+    return static_cast<float>(cell_probability(*s.cells, c.x, c.y) / cell_solid_angle(s, c.y));
 }
 
 SkySample sample_sky(const Sky& s, const vec2& u) {
     if (!s.map) return {square_to_sphere(u), sphere_pdf_w};
-    const CellSample c = sample_cell(s.cells, u);
+    const CellSample c = sample_cell(*s.cells, u);
     const double phi = 2 * glm::pi<double>() * ((c.x + double(c.inside.x)) / s.map->width - 0.5);
     const double upper = row_cosine(s, c.y), lower = row_cosine(s, c.y + 1);
     const double y = upper + (lower - upper) * c.inside.y;

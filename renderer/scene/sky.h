@@ -14,12 +14,14 @@ struct Sky {
     std::shared_ptr<const Image> map;  // empty: constant
     vec3 scale{1};                     // colour times strength
     float cos_rotation = 1, sin_rotation = 0;
-    Distribution2D cells;     // of the map's texels, by mean radiance times solid angle
+    // Of the map's texels, by mean radiance times solid angle, before rotation and scaling.
+    std::shared_ptr<const Distribution2D> cells;
     float mean_radiance = 0;  // over the sphere, mean of RGB, after scaling
 };
 
-// Throws where the map holds negative or non-finite values.
-Sky make_sky(const SkyDescription& description);
+// Throws where the map holds negative or non-finite values. The table of a `previous` sky with the
+// same map is shared.
+Sky make_sky(const SkyDescription& description, const Sky* previous = nullptr);
 
 // A gentle gradient for files without any light.
 SkyDescription default_sky();

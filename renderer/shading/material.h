@@ -28,6 +28,7 @@ struct TextureRef {
     bool nearest = false;
     vec3 rows[2] = {{1, 0, 0}, {0, 1, 0}};
     bool used() const { return image >= 0; }
+    bool operator==(const TextureRef&) const = default;
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
@@ -42,7 +43,9 @@ struct Material {
     TextureRef metallic_roughness_texture;  // linear; g roughness, b metallic
     TextureRef normal_texture;              // linear, tangent space
     float normal_scale = 1;
-    vec3 emission{0};             // emissiveFactor * emissiveStrength: radiance
+    vec3 emission{0};         // emissiveFactor * emissiveStrength: radiance
+    vec3 emissive_factor{0};  // as the file parts `emission`; only editors look at these two
+    float emissive_strength = 1;
     TextureRef emission_texture;  // sRGB
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;

@@ -122,7 +122,8 @@ Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint
     b.frame = frame_from_normal(shading_normal(m, textures, p));
     b.alpha = sqr(roughness);
     b.eta = m.ior;
-    b.thin = p.thin;
+    // A material with a thickness fills a body whatever its mesh looks like.
+    b.thin = !(m.transmission > 0) || (p.thin && !m.has_thickness);
     // glTF 2.0 appendix B and KHR_materials_specular: a dielectric coat over a diffuse layer, mixed
     // with a metal; the transmitted part replaces coat and diffuse layer together.
     const vec3 coat_f0 = glm::min(tint * sqr((m.ior - 1) / (m.ior + 1)), vec3(1)) * specular;

@@ -19,7 +19,7 @@ struct ShadingPoint {
     vec4 tangent{0, 0, 0, 1};  // interpolated; xyz zero where there is none; w the handedness
     vec2 uv[2] = {vec2(0), vec2(0)};
     vec4 color{1};      // vertex colour
-    bool thin = false;  // transmission through a sheet instead of into a body
+    bool thin = false;  // the mesh is a sheet, not the surface of a body
 };
 
 enum class ColorSpace : std::uint8_t { linear, srgb };

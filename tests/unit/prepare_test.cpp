@@ -79,15 +79,18 @@ TEST(BuildScene, SharesGeometryOnlyWhereTheMaterialsAllowIt) {
     options.previous = &old;
     d.materials[0].base_color = vec3(0.9f, 0.1f, 0.1f);
     EXPECT_EQ(build_scene(d, warnings, options).geometry, old.geometry);
-    // Glass asks whether the mesh is closed, blending asks the tree for a filter.
     d.materials[0].transmission = 1;
-    const Scene made_glass = build_scene(d, warnings, options);
-    EXPECT_NE(made_glass.geometry, old.geometry);
-    EXPECT_TRUE(made_glass.geometry->objects[0].closed);
+    EXPECT_EQ(build_scene(d, warnings, options).geometry, old.geometry);
     d.materials[0].transmission = 0;
+    // Blending asks the tree for a filter.
     d.materials[0].alpha_mode = AlphaMode::blend;
     d.materials[0].alpha = 0.5f;
-    EXPECT_TRUE(build_scene(d, warnings, options).has_transparency);
+    const Scene blended = build_scene(d, warnings, options);
+    EXPECT_NE(blended.geometry, old.geometry);
+    EXPECT_TRUE(blended.has_transparency);
+    options.previous = &blended;
+    d.materials[0].alpha = 0.25f;
+    EXPECT_EQ(build_scene(d, warnings, options).geometry, blended.geometry);
 }
 
 }  // namespace

@@ -1,0 +1,164 @@
+#include "scene/build_lights.h"
+
+#include <stdexcept>
+
+namespace midway {
+namespace {
+
+constexpr double pi_d = 3.14159265358979323846;
+// The share of next event's picks that is spread evenly, so that a weak lamp close by is found.
+constexpr double even_share = 0.2;
+// The share of the material's own emission that a triangle's mean has at least, so that it stays
+// positive wherever a texel between the probes may shine.
+constexpr double least_mean = 1e-3;
+
+double mean(const vec3& c) { return (double(c.x) + c.y + c.z) / 3; }
+
+// Mean over each triangle of what textures and coverage leave of the emission.
+EmissionMeans emission_means(const Scene& s, const Object& o, int object) {
+    const Material& m = s.materials[o.material];
+    constexpr int n = 6;
+    std::vector<vec3> means;
+    means.reserve(o.triangles.size());
+    for (size_t t = 0; t < o.triangles.size(); ++t) {
+        dvec3 sum(0);
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; i + j < n; ++j) {
+                const TriangleHit at{object, static_cast<int>(t), (i + 1 / 3.0f) / n,
+                                     (j + 1 / 3.0f) / n};
+                const ShadingPoint p = surface_point(o, at).shading;
+                const vec4 texel =
+                    sample_texture(s.textures, m.emission_texture, p, ColorSpace::srgb);
+                sum += dvec3(vec3(texel)) * double(material_alpha(m, s.textures, p));
+            }
+        means.push_back(vec3(sum / (n * (n + 1) / 2.0)));
+    }
+    return std::make_shared<const std::vector<vec3>>(std::move(means));
+}
+
+bool same_means(const Material& a, const Material& b) {
+    return a.emission_texture == b.emission_texture && a.alpha_mode == b.alpha_mode &&
+           a.alpha == b.alpha && a.alpha_cutoff == b.alpha_cutoff &&
+           a.base_color_texture == b.base_color_texture;
+}
+
+// Keeps the means of objects that are dark by now too: they may be switched on again.
+void find_emission_means(Scene& s, const Scene* previous) {
+    s.emission_means.resize(s.geometry->objects.size());
+    const bool share =
+        previous && previous->geometry == s.geometry && previous->textures == s.textures;
+    for (size_t k = 0; k < s.geometry->objects.size(); ++k) {
+        const Object& o = s.geometry->objects[k];
+        const Material& m = s.materials[o.material];
+        if (!m.emission_texture.used() && !o.may_be_transparent) continue;
+        if (share && same_means(m, previous->materials[o.material]))
+            s.emission_means[k] = previous->emission_means[k];
+        if (mean(m.emission) > 0 && !s.emission_means[k])
+            s.emission_means[k] = emission_means(s, o, static_cast<int>(k));
+    }
+}
+
+double mean_emission(const Material& m, const EmissionMeans& means, size_t triangle) {
+    if (!means) return mean(m.emission);
+    return mean(m.emission * (*means)[triangle]) + least_mean * mean(m.emission);
+}
+
+void add_area_lights(Scene& s) {
+    s.first_light.assign(s.geometry->objects.size(), -1);
+    for (size_t k = 0; k < s.geometry->objects.size(); ++k) {
+        const Object& o = s.geometry->objects[k];
+        const Material& m = s.materials[o.material];
+        if (!(mean(m.emission) > 0)) continue;
+        s.first_light[k] = static_cast<int>(s.lights.size());
+        for (size_t t = 0; t < o.triangles.size(); ++t) {
+            const TriangleShape shape = triangle_shape(o, static_cast<int>(t));
+            Light l;
+            l.kind = LightKind::area;
+            l.object = static_cast<int>(k);
+            l.triangle = static_cast<int>(t);
+            l.area = shape.area;
+            l.two_sided = m.double_sided;
+            l.power = pi_d * shape.area * (l.two_sided ? 2 : 1) *
+                      mean_emission(m, s.emission_means[k], t);
+            s.lights.push_back(l);
+        }
+    }
+}
+
+Light make_punctual(const PunctualLight& d, const Scene& s, float lamp_strength) {
+    const Normalisation& n = s.geometry->normalisation;
+    Light l;
+    const vec3 color = d.color * (d.intensity * lamp_strength);
+    l.direction = vec3(-glm::normalize(dvec3(d.to_world[2])));
+    if (d.kind == PunctualKind::directional) {
+        l.kind = LightKind::directional;
+        l.emission = color;
+        l.power = mean(color) * pi_d * s.radius * s.radius;
+        return l;
+    }
+    l.position = vec3((dvec3(d.to_world[3]) - n.center) * n.scale);
+    // Irradiance is intensity over distance squared, and distances are scaled.
+    l.emission = vec3(dvec3(color) * (n.scale * n.scale));
+    l.kind = d.kind == PunctualKind::spot ? LightKind::spot : LightKind::point;
+    double solid_angle = 4 * pi_d;
+    if (d.kind == PunctualKind::spot) {
+        l.cos_inner = std::cos(d.inner_cone_angle);
+        l.cos_outer = std::cos(d.outer_cone_angle);
+        solid_angle = 2 * pi_d * ((1.0 - l.cos_inner) + (double(l.cos_inner) - l.cos_outer) / 3);
+    }
+    l.power = mean(l.emission) * solid_angle;
+    return l;
+}
+
+void add_sky(Scene& s, const SkyDescription& d, const Sky* previous) {
+    s.sky = make_sky(d, previous);
+    if (!(s.sky->mean_radiance > 0)) return;
+    Light l;
+    l.kind = LightKind::sky;
+    l.power = 4 * pi_d * s.sky->mean_radiance * pi_d * s.radius * s.radius;
+    s.sky_light = static_cast<int>(s.lights.size());
+    s.lights.push_back(l);
+}
+
+void make_light_tables(Scene& s) {
+    std::vector<double> power, next_event;
+    power.reserve(s.lights.size());
+    next_event.reserve(s.lights.size());
+    size_t shining = 0;
+    for (const Light& l : s.lights) {
+        power.push_back(l.power);
+        s.total_power += l.power;
+        shining += l.power > 0;
+    }
+    if (!std::isfinite(s.total_power))
+        throw std::runtime_error(
+            "the lights' power is not finite (emission or intensity); use smaller numbers");
+    for (const Light& l : s.lights)
+        next_event.push_back(l.power > 0 ? (1 - even_share) * l.power / s.total_power +
+                                               even_share / double(shining)
+                                         : 0.0);
+    s.emission_pick = make_distribution(power);
+    s.next_event_pick = make_distribution(next_event);
+}
+
+size_t count_lights(const Scene& s, const SceneDescription& d) {
+    size_t count = d.lights.size() + 1;
+    for (const Object& o : s.geometry->objects)
+        if (mean(s.materials[o.material].emission) > 0) count += o.triangles.size();
+    return count;
+}
+
+}  // namespace
+
+void build_lights(Scene& s, const SceneDescription& d, const Scene* previous) {
+    for (Material& m : s.materials) m.emission *= d.lamp_strength;
+    s.lights.reserve(count_lights(s, d));
+    find_emission_means(s, previous);
+    add_area_lights(s);
+    for (const PunctualLight& l : d.lights)
+        s.lights.push_back(make_punctual(l, s, d.lamp_strength));
+    if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
+    make_light_tables(s);
+}
+
+}  // namespace midway

@@ -1,0 +1,16 @@
+// The lights of a Scene and the tables that they are picked from: one light for each triangle of a
+// material that shines, one for each lamp without size, one for the sky. Powers are means of RGB in
+// scene units. Time and memory grow with the number of lights and no faster.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace midway {
+
+// Fills in everything of a scene that shines; its geometry, materials, textures and radius are
+// there. What does not depend on how strongly lights shine is shared with `previous` (null: none):
+// the sky's table, and the means of textures over triangles. Throws std::runtime_error with one
+// line where the sum of all powers is not finite.
+void build_lights(Scene& scene, const SceneDescription& description, const Scene* previous);
+
+}  // namespace midway
