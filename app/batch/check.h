@@ -11,7 +11,8 @@
 namespace midway {
 
 struct CheckCommand {
-    SceneOptions scene;  // no path: the suite
+    SceneOptions scene;   // no path: the suite
+    std::string session;  // where the scene's wishes came from one
     RenderSettings settings;
     AuditOptions audit;
     std::optional<std::string> report;  // HTML file

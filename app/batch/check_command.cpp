@@ -2,6 +2,7 @@
 
 #include "check.h"
 #include "render_options.h"
+#include "session_options.h"
 
 namespace midway {
 namespace {
@@ -19,8 +20,9 @@ std::string quoted(const std::string& text) {
 }
 
 // The scene with all wishes that are not as the file has them.
-std::string scene_words(const SceneOptions& o) {
-    std::string s = quoted(o.path);
+std::string scene_words(const CheckCommand& c) {
+    const SceneOptions& o = c.scene;
+    std::string s = quoted(c.session.empty() ? o.path : c.session);
     if (o.sky) s += " --sky " + quoted(*o.sky);
     if (o.sky_rotation_degrees != 0) s += fmt::format(" --sky-rotation {}", o.sky_rotation_degrees);
     if (o.sky_strength != 1) s += fmt::format(" --sky-strength {}", o.sky_strength);
@@ -38,8 +40,10 @@ std::string settings_words(const RenderSettings& s) {
                        s.seed);
 }
 
-int run(CheckCommand& c, const std::string& size) {
+int run(CheckCommand& c, const std::string& size, const CLI::App& options) {
     parse_size(size, c.settings);
+    const std::string typed = c.scene.path;
+    if (take_session(options, c.scene, c.quiet || c.json)) c.session = typed;
     if (c.scene.path.empty()) return check_suite(c);
     if (!c.only.empty()) usage("--only: names cases of the suite; leave the scene out");
     return check_scene(c);
@@ -48,13 +52,13 @@ int run(CheckCommand& c, const std::string& size) {
 }  // namespace
 
 std::string replay_command(const CheckCommand& c, const AuditPlace& p) {
-    return fmt::format("midway render {} {} --exponent {} --debug-pixel {},{},{}",
-                       scene_words(c.scene), settings_words(c.settings),
-                       fmt::join(audited_exponents, ","), p.x, p.y, p.pass);
+    return fmt::format("midway render {} {} --exponent {} --debug-pixel {},{},{}", scene_words(c),
+                       settings_words(c.settings), fmt::join(audited_exponents, ","), p.x, p.y,
+                       p.pass);
 }
 
 std::string check_command_line(const CheckCommand& c) {
-    return fmt::format("midway check {} {} --paths {} --rays {}", scene_words(c.scene),
+    return fmt::format("midway check {} {} --paths {} --rays {}", scene_words(c),
                        settings_words(c.settings), c.audit.paths, c.audit.rays);
 }
 
@@ -84,7 +88,7 @@ Command add_check_command(CLI::App& app) {
     sub.add_option("--assets", c->assets, "Folder of the project's scenes, for the suite");
     add_threads_option(sub, c->audit.threads);
     sub.add_flag("--quiet", c->quiet, "No progress, no warnings");
-    return [c, size] { return run(*c, *size); };
+    return [c, size, &sub] { return run(*c, *size, sub); };
 }
 
 }  // namespace midway

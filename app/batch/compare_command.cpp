@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "compare.h"
 #include "interrupt.h"
+#include "session_options.h"
 
 namespace midway {
 namespace {
@@ -18,6 +19,15 @@ int run(CompareCommand& c, const CLI::App& options) {
     catch_interrupt();
     if (c.suite) return run_suite(c, options);
     const std::string name = std::filesystem::path(c.scene.path).stem().string();
+    if (const auto session = take_session(options, c.scene, c.quiet)) {
+        // What belongs to a technique is the comparison's own.
+        RenderSettings s = session->settings;
+        s.families = c.settings.families;
+        s.clamp = c.settings.clamp;
+        s.only = c.settings.only;
+        s.unweighted = c.settings.unweighted;
+        take_settings(options, s, c.settings);
+    }
     ComparePlan plan = make_compare_plan(c, name.empty() ? "scene" : name, c.folder);
     std::filesystem::create_directories(c.folder);
     CompareProgress progress(c.quiet, planned_seconds(plan));

@@ -60,6 +60,7 @@ Json describe_scene(const PreparedScene& p) {
     for (const CameraDescription& c : d.cameras) j["cameras"].push_back(c.name);
     j["lights"] = describe_lights(*p.scene);
     if (d.sky) j["sky"] = d.sky->source;
+    j["edits"] = edits_in_words(p.options.edits);
     j["surfaces"] = {{"rough", f.rough}, {"smooth", f.smooth}, {"transparent", f.transparent}};
     j["families"] = Json::array();
     for (const FamilyNeed& need : family_needs(f))
@@ -87,6 +88,7 @@ void print_text(const Json& j) {
                    l["kind"].get<std::string>(), l["count"].get<int>() == 1 ? "" : "s",
                    100 * l["power_share"].get<double>());
     if (j.contains("sky")) fmt::print("  sky: {}\n", j["sky"].get<std::string>());
+    for (const Json& e : j["edits"]) fmt::print("  edited: {}\n", e.get<std::string>());
     for (const Json& f : j["families"])
         fmt::print("  {}: {} ({})\n", f["family"].get<std::string>(),
                    f["needed"].get<bool>() ? "used" : "left out", f["why"].get<std::string>());

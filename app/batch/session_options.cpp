@@ -5,10 +5,16 @@
 namespace midway {
 namespace {
 
+// Whether an option was given; not every command has each of them.
+bool given(const CLI::App& command, const char* option) {
+    const CLI::Option* o = command.get_option_no_throw(option);
+    return o && o->count() > 0;
+}
+
 // Takes over a value for which its option was not given.
 template <class T>
 void take(const CLI::App& command, const char* option, const T& from, T& to) {
-    if (command.count(option) == 0) to = from;
+    if (!given(command, option)) to = from;
 }
 
 }  // namespace
@@ -28,12 +34,13 @@ std::optional<Session> take_session(const CLI::App& command, SceneOptions& scene
     take(command, "--focus", from.focus_distance, scene.focus_distance);
     take(command, "--look-at", from.look_at, scene.look_at);
     take(command, "--camera", from.camera, scene.camera);
+    scene.edits = from.edits;
     return std::move(loaded.session);
 }
 
 void take_settings(const CLI::App& command, const RenderSettings& from, RenderSettings& to) {
     const std::string technique =
-        command.count("--technique") ? command["--technique"]->as<std::string>() : std::string();
+        given(command, "--technique") ? command["--technique"]->as<std::string>() : std::string();
     if (technique.empty()) to.technique = from.technique;
     if (technique.find(':') == std::string::npos)
         take(command, "--exponent", from.exponents, to.exponents);
@@ -41,7 +48,7 @@ void take_settings(const CLI::App& command, const RenderSettings& from, RenderSe
     take(command, "--size", from.width, to.width);
     take(command, "--size", from.height, to.height);
     // A crop is one of its own size.
-    if (command.count("--size") == 0) take(command, "--crop", from.crop, to.crop);
+    if (!given(command, "--size")) take(command, "--crop", from.crop, to.crop);
     take(command, "--max-bounces", from.max_bounces, to.max_bounces);
     take(command, "--seed", from.seed, to.seed);
     take(command, "--sampler", from.sampler, to.sampler);

@@ -17,16 +17,6 @@ namespace {
 
 constexpr size_t kept_jobs = 32;
 
-// The wishes for the lights of `old` with the camera of `wishes`.
-SceneOptions with_camera_of(const SceneOptions& wishes, SceneOptions old) {
-    old.camera = wishes.camera;
-    old.look_at = wishes.look_at;
-    old.fov_degrees = wishes.fov_degrees;
-    old.aperture_radius = wishes.aperture_radius;
-    old.focus_distance = wishes.focus_distance;
-    return old;
-}
-
 // Takes the camera of the document's wishes; the scene stays. False where it makes no sense.
 bool update_camera(Document& d) {
     try {
@@ -91,6 +81,7 @@ News take_loaded(App& app, Engine& engine) {
         return {true, {.camera = true, .scene = true}};
     }
     d.options = loaded->options;
+    app.undo = {.now = d.options};
     d.path = engine.opening_path;
     app.camera.bookmarks.clear();
     app.display.zoom = 0;
@@ -110,10 +101,11 @@ News take_updated(App& app, Engine& engine) {
     Document& d = app.document;
     if (!updated->prepared) {
         d.error = updated->error;
-        const SceneOptions wishes = d.options;
-        d.options = with_camera_of(wishes, d.prepared->options);
+        d.options = with_scene_of(d.prepared->options, d.options);
+        withdraw(app.undo, d.options);
         return {true, {}};
     }
+    engine.scene_edited = updated->edited;
     d.prepared = updated->prepared;
     d.warnings = d.prepared->warnings;
     d.error.clear();
@@ -196,7 +188,10 @@ void restart_render(App& app, Engine& engine, Engine::Clock::time_point edited) 
     engine.live.pause(r.paused);
     const std::uint64_t number = engine.live.submit(job);
     engine.jobs.push_back({number, app.document.prepared, job.settings, edited});
-    if (engine.jobs.size() > kept_jobs) engine.jobs.pop_front();
+    // Images that are no longer on the screen need no scene: with many lamps each one is large.
+    while (engine.jobs.size() > kept_jobs ||
+           (app.snapshot && engine.jobs.front().number < app.snapshot->job))
+        engine.jobs.pop_front();
     engine.applied = r;
 }
 
@@ -204,7 +199,8 @@ void apply(App& app, Engine& engine, const Change& change, Engine::Clock::time_p
     Document& d = app.document;
     if (!d.prepared) return;
     bool restart = false;
-    if (change.scene) engine.updater.submit(d.prepared, d.options);
+    if (change.scene) engine.updater.submit(d.prepared, d.options, edited);
+    if (engine.scene_edited) edited = std::min(edited, *std::exchange(engine.scene_edited, {}));
     if (change.camera) restart |= update_camera(d);
     if (change.settings) {
         const RenderChoices &now = app.render, &old = engine.applied;

@@ -84,6 +84,17 @@ void add_settings(Words& w, const RenderSettings& s) {
     if (s.unweighted) w.list.push_back("--unweighted");
 }
 
+void add_limits(Words& w, const RenderLimits& limits) {
+    if (limits.spp) w.option("--spp", std::to_string(*limits.spp));
+    if (limits.seconds) w.option("--time", number(*limits.seconds));
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string line;
+    for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quoted(word);
+    return line;
+}
+
 }  // namespace
 
 std::vector<std::string> command_words(const SceneOptions& scene, const RenderSettings& settings,
@@ -92,17 +103,21 @@ std::vector<std::string> command_words(const SceneOptions& scene, const RenderSe
     w.list = {"midway", "render", file_word(scene.path), "-o", file_word(output)};
     add_scene(w, scene);
     add_settings(w, settings);
-    if (limits.spp) w.option("--spp", std::to_string(*limits.spp));
-    if (limits.seconds) w.option("--time", number(*limits.seconds));
+    add_limits(w, limits);
     return w.list;
 }
 
 std::string command_line(const SceneOptions& scene, const RenderSettings& settings,
                          const RenderLimits& limits, const std::string& output) {
-    std::string line;
-    for (const std::string& word : command_words(scene, settings, limits, output))
-        line += (line.empty() ? "" : " ") + shell_quoted(word);
-    return line;
+    return joined(command_words(scene, settings, limits, output));
+}
+
+std::string session_command_line(const std::string& session, const RenderLimits& limits,
+                                 const std::string& output) {
+    Words w;
+    w.list = {"midway", "render", file_word(session), "-o", file_word(output)};
+    add_limits(w, limits);
+    return joined(w.list);
 }
 
 std::string shell_quoted(const std::string& word) {

@@ -10,12 +10,17 @@
 
 namespace midway {
 
-// The words, the program's name first; unquoted.
+// The words, the program's name first; unquoted. Edits of single lights and materials fit on no
+// command line: where the scene has some, see session_command_line().
 std::vector<std::string> command_words(const SceneOptions& scene, const RenderSettings& settings,
                                        const RenderLimits& limits, const std::string& output);
 
 std::string command_line(const SceneOptions& scene, const RenderSettings& settings,
                          const RenderLimits& limits, const std::string& output);
+
+// The same by way of a session that holds scene and settings.
+std::string session_command_line(const std::string& session, const RenderLimits& limits,
+                                 const std::string& output);
 
 std::string shell_quoted(const std::string& word);
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "image/file.h"
 #include "io/gltf.h"
 #include "math/hash.h"
 
@@ -11,6 +12,8 @@ namespace midway {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr size_t most_edit_warnings = 20;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -45,8 +48,7 @@ SkyDescription chosen_sky(const std::string& text) {
     return sky;
 }
 
-bool has_light(const SceneDescription& d) {
-    if (d.sky) return true;
+bool has_lamp(const SceneDescription& d) {
     for (const PunctualLight& l : d.lights)
         if (l.intensity > 0 && max_component(l.color) > 0) return true;
     for (const Instance& i : d.instances)
@@ -102,40 +104,82 @@ CameraDescription choose_camera(const SceneOptions& o, PreparedScene& p) {
     return c;
 }
 
-// `old` holds the sky of the wishes before, or null.
-void choose_lights(const SceneOptions& o, const PreparedScene* old, PreparedScene& p) {
-    SceneDescription& d = p.description;
-    d.sky.reset();  // glTF files hold none
-    if (o.sky && old && old->options.sky == o.sky) {
-        d.sky = old->description.sky;
-        d.sky->rotation_degrees = 0;
-        d.sky->strength = 1;
-    } else if (o.sky) {
-        d.sky = chosen_sky(*o.sky);
-    }
-    p.default_sky = !has_light(d);
-    if (p.default_sky) {
-        d.sky = default_sky();
-        p.warnings.push_back(
-            "the scene has no light; a soft default sky is used (--sky changes it)");
-    }
-    if (d.sky) {
-        d.sky->rotation_degrees += o.sky_rotation_degrees;
-        d.sky->strength *= o.sky_strength;
-    }
-    d.lamp_strength = o.lamp_strength;
+void check_lights(const SceneOptions& o) {
     const auto usable = [](double x) { return x >= 0 && std::isfinite(x); };
     if (!usable(o.lamp_strength) || !usable(o.sky_strength) ||
         !std::isfinite(o.sky_rotation_degrees))
         throw std::invalid_argument(
             "strength or rotation out of range (--lamp-strength, --sky-strength, --sky-rotation); "
             "use finite numbers");
+    check_edits(o.edits);
 }
 
-// Whether two wishes differ in the camera alone.
-bool same_lights(const SceneOptions& a, const SceneOptions& b) {
-    return a.sky == b.sky && a.sky_rotation_degrees == b.sky_rotation_degrees &&
-           a.sky_strength == b.sky_strength && a.lamp_strength == b.lamp_strength;
+// Calls use(edit, place) for every edit that has one, and warns of the others.
+template <class Edit, class Item, class Use>
+void for_each_edit(const std::vector<Edit>& edits, const std::vector<Item>& items, const char* what,
+                   std::vector<std::string>& warnings, const Use& use) {
+    const std::vector<int> at = places(edits, items);
+    for (size_t k = 0; k < edits.size(); ++k) {
+        if (at[k] >= 0)
+            use(edits[k], static_cast<size_t>(at[k]));
+        else if (warnings.size() < most_edit_warnings)
+            warnings.push_back(std::string("edit of ") + what + " \"" + one_line(edits[k].name) +
+                               "\" left out: the file holds none of this name at its place");
+    }
+}
+
+// The file's lights and materials with the edits. A lamp that is switched off is still a lamp:
+// no default sky takes its place.
+void choose_contents(const SceneOptions& o, PreparedScene& p) {
+    SceneDescription& d = p.description;
+    d.materials = p.file->materials;
+    d.lights = p.file->lights;
+    const auto for_lights = [&](std::vector<std::string>& warnings, const auto& use) {
+        for_each_edit(o.edits.lights, d.lights, "light", warnings, use);
+    };
+    const auto for_materials = [&](std::vector<std::string>& warnings, const auto& use) {
+        for_each_edit(o.edits.materials, d.materials, "material", warnings, use);
+    };
+    for_lights(p.light_warnings,
+               [&](const LightEdit& e, size_t k) { d.lights[k] = values_of(d.lights[k], e); });
+    for_materials(p.light_warnings, [&](const MaterialEdit& e, size_t k) {
+        d.materials[k] = values_of(d.materials[k], e);
+    });
+    p.default_sky = !o.sky && !p.file->shines && !has_lamp(d);
+    std::vector<std::string> told;
+    for_lights(told,
+               [&](const LightEdit& e, size_t k) { d.lights[k] = edited(p.file->lights[k], e); });
+    for_materials(told, [&](const MaterialEdit& e, size_t k) {
+        d.materials[k] = edited(p.file->materials[k], e);
+    });
+}
+
+// `old` is of the same file, or null. glTF files hold no sky.
+void choose_sky(const SceneOptions& o, const PreparedScene* old, PreparedScene& p) {
+    SceneDescription& d = p.description;
+    if (p.default_sky) {
+        p.light_warnings.push_back(
+            "the scene has no light; a soft default sky is used (--sky changes it)");
+        if (!old || !old->default_sky) p.sky = default_sky();
+    } else if (!o.sky) {
+        p.sky.reset();
+    } else if (!old || old->options.sky != o.sky) {
+        p.sky = chosen_sky(*o.sky);
+    }
+    d.sky.reset();
+    if (!p.sky || !o.edits.sky.on) return;
+    d.sky = p.sky;
+    d.sky->color = o.edits.sky.color.value_or(d.sky->color);
+    d.sky->rotation_degrees = o.sky_rotation_degrees;
+    d.sky->strength = o.sky_strength;
+}
+
+void choose_lights(const SceneOptions& o, const PreparedScene* old, PreparedScene& p) {
+    check_lights(o);
+    p.light_warnings.clear();
+    choose_contents(o, p);
+    choose_sky(o, old, p);
+    p.description.lamp_strength = o.lamp_strength;
 }
 
 // Freezes the description; `previous` is a Scene of the same file to share with, or null.
@@ -149,13 +193,40 @@ void build(PreparedScene& p, const Scene* previous) {
 }
 
 void finish(PreparedScene& p) {
-    p.warnings.insert(p.warnings.end(), p.scene_warnings.begin(), p.scene_warnings.end());
-    p.hash = hash_scene(p.content_hash, p.description, p.camera);
+    for (const auto* list : {&p.light_warnings, &p.scene_warnings})
+        p.warnings.insert(p.warnings.end(), list->begin(), list->end());
+    const SceneDescription& d = p.description;
+    p.hash = hash_scene(d.sky && d.sky->map ? p.sky_hash : p.content_hash, d, p.camera);
 }
 
-const Image* sky_map(const SceneDescription& d) { return d.sky ? d.sky->map.get() : nullptr; }
+const Image* sky_map(const PreparedScene& p) { return p.sky ? p.sky->map.get() : nullptr; }
+
+void hash_sky(PreparedScene& p) {
+    if (const Image* map = sky_map(p)) p.sky_hash = hash_sky_map(p.content_hash, *map);
+}
 
 }  // namespace
+
+bool same_scene(const SceneOptions& a, const SceneOptions& b) {
+    return a.sky == b.sky && a.sky_rotation_degrees == b.sky_rotation_degrees &&
+           a.sky_strength == b.sky_strength && a.lamp_strength == b.lamp_strength &&
+           a.edits == b.edits;
+}
+
+SceneOptions with_camera_of(const SceneOptions& wishes, SceneOptions old) {
+    old.camera = wishes.camera;
+    old.look_at = wishes.look_at;
+    old.fov_degrees = wishes.fov_degrees;
+    old.aperture_radius = wishes.aperture_radius;
+    old.focus_distance = wishes.focus_distance;
+    return old;
+}
+
+SceneOptions with_scene_of(const SceneOptions& wishes, SceneOptions old) {
+    SceneOptions o = with_camera_of(old, wishes);
+    o.path = std::move(old.path);
+    return o;
+}
 
 PreparedScene prepare_scene(const SceneOptions& o, const LoadProgress& progress) {
     const auto at = [&](const char* stage, double done) {
@@ -167,6 +238,8 @@ PreparedScene prepare_scene(const SceneOptions& o, const LoadProgress& progress)
     at("reading the file", 0);
     p.description = load_gltf(o.path);
     p.warnings = p.description.warnings;
+    p.file = std::make_shared<const FileContents>(
+        FileContents{p.description.materials, p.description.lights, has_lamp(p.description)});
     choose_lights(o, nullptr, p);
     p.camera = choose_camera(o, p);
     p.seconds_load = seconds_since(start);
@@ -175,26 +248,36 @@ PreparedScene prepare_scene(const SceneOptions& o, const LoadProgress& progress)
     build(p, nullptr);
     at("fingerprinting", 0.95);
     p.content_hash = hash_content(p.description);
+    hash_sky(p);
     finish(p);
     p.seconds_build = seconds_since(began);
     at("ready", 1);
     return p;
 }
 
-PreparedScene update_scene(const PreparedScene& old, const SceneOptions& o) {
+PreparedScene update_scene(const PreparedScene& old, const SceneOptions& o,
+                           const LoadProgress& progress) {
+    const auto at = [&](const char* stage, double done) {
+        if (progress) progress(stage, done);
+    };
     if (o.path != old.options.path)
         throw std::invalid_argument("the scene is another file (" + o.path + "); load it");
     PreparedScene p = old;
     p.options = o;
     p.warnings = p.description.warnings;
-    choose_lights(o, &old, p);
-    p.camera = choose_camera(o, p);
     const auto began = Clock::now();
-    if (!same_lights(o, old.options)) build(p, old.scene.get());
-    if (sky_map(p.description) != sky_map(old.description))
-        p.content_hash = hash_content(p.description);
+    if (!same_scene(o, old.options)) {
+        at("reading the sky", 0);
+        choose_lights(o, &old, p);
+        at("building the lights", 0.3);
+        build(p, old.scene.get());
+        at("fingerprinting", 0.7);
+        if (sky_map(p) != sky_map(old)) hash_sky(p);
+    }
+    p.camera = choose_camera(o, p);
     finish(p);
     p.seconds_build = seconds_since(began);
+    at("ready", 1);
     return p;
 }
 

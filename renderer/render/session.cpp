@@ -1,135 +1,25 @@
 #include "render/session.h"
 
 #include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
-#include <stdexcept>
 
-#include "image/file.h"
+#include "render/session_edits.h"
+#include "render/session_fields.h"
 
 namespace midway {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Json = SessionJson;
+using Fields = SessionFields;
 
 constexpr std::string_view format_name = "midway session";
-constexpr int newest_version = 1;
+// 2: edits. A session without any is written as version 1, which older programs read.
+constexpr int newest_version = 2;
 constexpr std::uintmax_t most_bytes = 4 << 20;
 constexpr size_t most_strategies = 4096, most_window_words = 1000;
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 40;
-
-[[noreturn]] void refuse(const std::string& what, const std::string& path) {
-    throw std::runtime_error(one_line(what) + " (" + one_line(path) +
-                             "); correct it or save the session again");
-}
-
-// The fields of one JSON object, each asked for by its name; what nobody asked for is warned of.
-class Fields {
-  public:
-    Fields(const Json& object, std::string prefix, LoadedSession& out, const std::string& path)
-        : object_(object), prefix_(std::move(prefix)), out_(out), path_(path) {
-        if (!object.is_object()) bad("", "is not an object");
-    }
-
-    const Json* find(const std::string& name) {
-        known_.insert(name);
-        const auto it = object_.find(name);
-        return it == object_.end() ? nullptr : &*it;
-    }
-
-    [[noreturn]] void bad(const std::string& name, const std::string& why) const {
-        std::string field = prefix_ + name;
-        if (!field.empty() && field.back() == '.') field.pop_back();
-        refuse("session field \"" + field.substr(0, 100) + "\" " + why, path_);
-    }
-
-    void read(const std::string& name, std::string& to) {
-        const Json* j = find(name);
-        if (!j) return;
-        if (!j->is_string()) bad(name, "is not a text");
-        to = j->get<std::string>();
-        if (to.find('\0') != std::string::npos) bad(name, "holds a zero byte");
-    }
-    void read(const std::string& name, bool& to) {
-        const Json* j = find(name);
-        if (!j) return;
-        if (!j->is_boolean()) bad(name, "is neither true nor false");
-        to = j->get<bool>();
-    }
-    void read(const std::string& name, double& to) {
-        if (const Json* j = find(name)) to = number(name, *j);
-    }
-    void read(const std::string& name, float& to) {
-        if (const Json* j = find(name)) to = small_number(name, *j);
-    }
-    template <class T>
-    void read(const std::string& name, std::optional<T>& to) {
-        if (!find(name)) return;
-        T value{};
-        read(name, value);
-        to = value;
-    }
-    template <class T>
-    void read_whole(const std::string& name, T& to, T low, T high) {
-        if (const Json* j = find(name)) to = whole(name, *j, low, high);
-    }
-
-    double number(const std::string& name, const Json& j) const {
-        if (!j.is_number() || !std::isfinite(j.get<double>())) bad(name, "is not a finite number");
-        return j.get<double>();
-    }
-    float small_number(const std::string& name, const Json& j) const {
-        const auto x = static_cast<float>(number(name, j));
-        if (!std::isfinite(x)) bad(name, "is not a finite number");
-        return x;
-    }
-    template <class T>
-    T whole(const std::string& name, const Json& j, T low, T high) const {
-        const bool fits = j.is_number_unsigned()
-                              ? j.get<std::uint64_t>() <= static_cast<std::uint64_t>(high)
-                              : j.is_number_integer() && low < 0;
-        if (!fits || j.get<T>() < low)
-            bad(name, "is not a whole number from " + std::to_string(low) + " to " +
-                          std::to_string(high));
-        return j.get<T>();
-    }
-    const Json& list(const std::string& name, const Json& j, size_t least, size_t most) const {
-        if (!j.is_array() || j.size() < least || j.size() > most)
-            bad(name, "is not a list of the right length");
-        return j;
-    }
-    // Turns a word into its meaning; `parse` throws for words it does not know.
-    template <class T, class Parse>
-    void read_word(const std::string& name, T& to, const Parse& parse) {
-        if (!find(name)) return;
-        std::string text;
-        read(name, text);
-        try {
-            to = parse(text);
-        } catch (const std::exception&) {
-            bad(name, "holds a word that is not known: \"" + text.substr(0, 100) + "\"");
-        }
-    }
-
-    void warn_of_the_rest() {
-        for (const auto& [name, value] : object_.items())
-            if (!known_.count(name) && out_.warnings.size() < 20)
-                out_.warnings.push_back("session field \"" +
-                                        one_line(prefix_ + name).substr(0, 100) +
-                                        "\" is not known; left out (" + one_line(path_) + ")");
-    }
-
-  private:
-    const Json& object_;
-    std::string prefix_;
-    LoadedSession& out_;
-    const std::string& path_;
-    std::set<std::string> known_;
-};
 
 std::string from_session_folder(const std::string& session, const std::string& file) {
     const fs::path p(file);
@@ -242,14 +132,15 @@ Json parse_file(const std::string& path) {
     std::error_code error;
     if (!fs::is_regular_file(path, error))
         throw std::runtime_error("cannot open session (" + one_line(path) + "); check the name");
-    if (fs::file_size(path, error) > most_bytes || error) refuse("session is too large", path);
+    if (fs::file_size(path, error) > most_bytes || error)
+        refuse_session("session is too large", path);
     std::ifstream in(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     if (!in)
         throw std::runtime_error("cannot read session (" + one_line(path) +
                                  "); check its permissions");
     Json j = Json::parse(text, nullptr, false);
-    if (j.is_discarded()) refuse("session is not valid JSON", path);
+    if (j.is_discarded()) refuse_session("session is not valid JSON", path);
     return j;
 }
 
@@ -268,10 +159,11 @@ Json scene_json(const Session& s, const std::string& path) {
     lights["lamp_strength"] = o.lamp_strength;
     Json j;
     j["format"] = format_name;
-    j["version"] = newest_version;
+    j["version"] = o.edits.empty() ? 1 : newest_version;
     j["scene"] = to_session_folder(path, o.path);
     j["camera"] = std::move(camera);
     j["lights"] = std::move(lights);
+    if (!o.edits.empty()) j["edits"] = edits_json(o.edits);
     return j;
 }
 
@@ -318,6 +210,7 @@ LoadedSession read_session(const std::string& path) {
     const auto object = [&](const char* name) { return f.find(name); };
     if (const Json* k = object("camera")) read_camera({*k, "camera.", out, path}, s.scene);
     if (const Json* k = object("lights")) read_lights({*k, "lights.", out, path}, s.scene, path);
+    if (const Json* k = object("edits")) read_edits({*k, "edits.", out, path}, s.scene.edits);
     if (const Json* k = object("render")) read_settings({*k, "render.", out, path}, s.settings);
     if (const Json* k = object("limits")) read_limits({*k, "limits.", out, path}, s.limits);
     if (const Json* k = object("window")) read_window({*k, "window.", out, path}, *k, s.window);

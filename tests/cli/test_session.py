@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import tiny_scene
 from exr_file import ExrFile
 from harness import CliTest
 
@@ -75,6 +76,52 @@ class Sessions(CliTest):
         self.assertEqual("colour", told["sky"])
         self.assertTrue(told["scene"].endswith("tiny.gltf"))
 
+    def test_edits_are_as_if_the_file_had_them(self):
+        other = tiny_scene.document()
+        chalk, lamp = other["materials"]
+        chalk["pbrMetallicRoughness"].update(baseColorFactor=[0.3, 0.7, 0.1, 1],
+                                             roughnessFactor=0.15, metallicFactor=0.6)
+        lamp["emissiveFactor"] = [1, 0.3, 0.2]
+        lamp["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": 7.7},
+                              "KHR_materials_ior": {"ior": 1.7}}
+        other["extensionsUsed"] += ["KHR_materials_emissive_strength", "KHR_materials_ior"]
+        bulb = other["extensions"]["KHR_lights_punctual"]["lights"][0]
+        bulb.update(type="spot", intensity=11.3, color=[0.2, 1, 0.7],
+                    spot={"innerConeAngle": 0.2, "outerConeAngle": 0.9})
+        (self.folder / "other.gltf").write_text(json.dumps(other))
+        self.write(scene="other.gltf")
+        of_file = self.render_session("of_file")
+        self.write(version=2, edits={
+            "lights": [{"index": 0, "name": "bulb", "kind": "spot", "strength": 11.3,
+                        "color": [0.2, 1, 0.7], "inner_angle": 0.2, "outer_angle": 0.9}],
+            "materials": [{"index": 0, "name": "chalk", "base_color": [0.3, 0.7, 0.1],
+                           "roughness": 0.15, "metallic": 0.6},
+                          {"index": 1, "name": "lamp", "emission_color": [1, 0.3, 0.2],
+                           "emission_strength": 7.7, "ior": 1.7}]})
+        self.assert_same(of_file, self.render_session("edited"))
+        told = json.loads(self.run_midway("info", self.file, "--json").stdout)
+        self.assertEqual(3, len(told["edits"]))
+        self.assertIn('edited: material "chalk": base_color 0.3,0.7,0.1, metallic 0.6',
+                      self.run_midway("info", self.file).stdout)
+
+    def test_edits_of_what_is_gone_are_warned_of(self):
+        self.write()
+        plain = self.render_session("plain")
+        self.write(version=2, edits={"lights": [{"index": 4, "name": "moon", "on": False}]})
+        path = self.out / "gone.exr"
+        done = self.run_midway("render", self.file, "-o", path)
+        self.assertIn('warning: edit of light "moon" left out', done.stderr)
+        self.assert_same(plain, path)
+
+    def test_check_and_compare_take_them(self):
+        self.write(version=2, edits={"materials": [{"index": 0, "name": "chalk",
+                                                    "transmission": 1, "roughness": 0}]})
+        checked = self.run_midway("check", self.file, "--paths", 200, "--rays", 0, "--json").stdout
+        self.assertIn("s.midway", json.loads(checked)["command"])
+        self.run_midway("compare", self.file, "-o", self.out / "report", "--time", 0.05,
+                        "--reference-time", 0.1, "--seeds", 1, "--techniques", "path,bdpt:2")
+        self.assertTrue((self.out / "report" / "report.html").exists())
+
     def test_unknown_fields_are_warned_of(self):
         self.write(mood="calm")
         done = self.run_midway("render", self.file, "-o", self.out / "a.exr")
@@ -82,7 +129,7 @@ class Sessions(CliTest):
 
     def test_broken_ones_are_refused(self):
         for case, fields in {
-                "another version": {"version": 2}, "no scene": {"scene": ""},
+                "another version": {"version": 3}, "no scene": {"scene": ""},
                 "a session in a session": {"scene": "s.midway"},
                 "a size of nothing": {"render": {"width": 0}},
                 "text for a number": {"camera": {"fov": "wide"}},

@@ -50,7 +50,11 @@ void expect_same_bits(const SceneOptions& options, const RenderSettings& setting
     const auto live = render_live(prepare_scene(options), settings);
     ASSERT_TRUE(live);
     ASSERT_EQ(live->error, "");
-    std::string line = command_line(options, settings, {live->passes, {}}, out.string());
+    const std::string session = folder / "a session.midway";
+    if (!options.edits.empty()) write_session(session, {options, settings, {}, {}});
+    std::string line = options.edits.empty()
+                           ? command_line(options, settings, {live->passes, {}}, out.string())
+                           : session_command_line(session, {live->passes, {}}, out.string());
     ASSERT_EQ(line.rfind("midway ", 0), 0u);
     line.replace(0, 6, shell_quoted(MIDWAY_PROGRAM));
     ASSERT_EQ(std::system((line + " --quiet --threads 1").c_str()), 0) << line;
@@ -123,6 +127,21 @@ TEST(CommandLine, MakesTheBitsOfTheWindow) {
              s.only = {{2, 1}, {3, 0}, {1, 3}};
              s.unweighted = true;
              s.clamp = 0.1f;
+         }},
+        {"edits of lights and materials",
+         [](SceneOptions& o, RenderSettings& s) {
+             o.look_at = {-0.1 / 3, 1.0000000000000002, 2.0 / 3, 1e-17, 0.9, -0.30000000000000004};
+             o.sky = "0.1,0.25,1e-1";
+             o.edits.sky.color = vec3(1.0f / 3);
+             const PreparedScene p = prepare_scene({.path = o.path});
+             for (int k = 0; k < static_cast<int>(p.file->materials.size()); ++k) {
+                 MaterialEdit e = edit_of(o.edits, p.file->materials, k);
+                 e.roughness = 0.1f + 0.07f * static_cast<float>(k);
+                 e.base_color = vec3(0.1f, 1.0f / 3, 0.7f);
+                 e.emission_strength = k == 0 ? 0.3f : 1.0f / 7;
+                 set_edit(o.edits, p.file->materials, k, e);
+             }
+             s.exponents = {1};
          }},
     };
     for (const Choices& c : sets) {

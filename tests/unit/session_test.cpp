@@ -30,6 +30,29 @@ Session rich_session() {
     s.scene.fov_degrees = 33.3;
     s.scene.aperture_radius = 0.01;
     s.scene.focus_distance = 12345.678901234567;
+    s.scene.edits.sky = {false, vec3(0.1f, 2, 1e-30f)};
+    s.scene.edits.lights = {{.name = "bulb \"one\"",
+                             .index = 3,
+                             .on = false,
+                             .kind = PunctualKind::spot,
+                             .color = vec3(1.0f / 3, 0, 7),
+                             .strength = 1e20f,
+                             .inner_angle = 0.1f,
+                             .outer_angle = 0.3f},
+                            {.name = "", .index = 0, .kind = PunctualKind::directional}};
+    s.scene.edits.materials = {{.name = "wood",
+                                .index = 12,
+                                .on = false,
+                                .emission_color = vec3(0.1f),
+                                .emission_strength = 0.7f,
+                                .base_color = vec3(0.3f, 0.2f, 1.0f / 7),
+                                .alpha = 0.5f,
+                                .metallic = 1.0f / 3,
+                                .roughness = 0.1f,
+                                .ior = 1.33f,
+                                .transmission = 1.0f,
+                                .specular = 0.0f,
+                                .double_sided = true}};
     s.settings.technique = Technique::path;
     s.settings.exponents = {0, 1, 2, 1.0 / 7};
     s.settings.families = Families{true, false, true, false};
@@ -59,6 +82,7 @@ void expect_same(const Session& a, const Session& b) {
     EXPECT_EQ(a.scene.fov_degrees, b.scene.fov_degrees);
     EXPECT_EQ(a.scene.aperture_radius, b.scene.aperture_radius);
     EXPECT_EQ(a.scene.focus_distance, b.scene.focus_distance);
+    EXPECT_EQ(a.scene.edits, b.scene.edits);
     EXPECT_EQ(settings_json(a.settings), settings_json(b.settings));
     EXPECT_EQ(a.settings.families, b.settings.families);
     EXPECT_EQ(a.limits, b.limits);
@@ -165,6 +189,50 @@ TEST(Session, EveryFieldIsChecked) {
     }
 }
 
+TEST(Session, OlderOnesAreReadAndPlainOnesStayReadable) {
+    const TempDir folder;
+    const std::string path = folder / "s.midway";
+    Session s = rich_session();
+    s.scene.edits = {};
+    write_session(path, s);
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(path))["version"], 1);
+    expect_same(read_session(path).session, s);
+    write_session(path, rich_session());
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(path))["version"], 2);
+}
+
+TEST(Session, EditsOfStrangersAreChecked) {
+    const TempDir folder;
+    const std::string path = folder / "s.midway";
+    write_session(path, rich_session());
+    const nlohmann::json good = nlohmann::json::parse(std::ifstream(path));
+    const std::pair<const char*, nlohmann::json> wrong[] = {
+        {"/edits/materials/0/roughness", 1.5},
+        {"/edits/materials/0/ior", 0.5},
+        {"/edits/materials/0/base_color", {0, 0}},
+        {"/edits/materials/0/base_color/2", 1.01},
+        {"/edits/materials/0/emission_strength", -1},
+        {"/edits/materials/0/emission_strength", 1e39},
+        {"/edits/materials/0/index", -1},
+        {"/edits/materials/0/index", 1e12},
+        {"/edits/materials/0/double_sided", 1},
+        {"/edits/lights/0/kind", "area"},
+        {"/edits/lights/0/outer_angle", 1.6},
+        {"/edits/lights/0/outer_angle", 0},
+        {"/edits/lights/1/index", 3},  // the same as the first one's
+        {"/edits/lights/0/name", std::string("a\0b", 3)},
+        {"/edits/sky/on", "no"},
+        {"/edits/sky/color", "red"},
+        {"/edits", 3},
+        {"/edits/lights", nlohmann::json::object()}};
+    for (const auto& [pointer, value] : wrong) {
+        nlohmann::json bad = good;
+        bad[nlohmann::json::json_pointer(pointer)] = value;
+        std::ofstream(path) << bad;
+        EXPECT_NE(error_of(path).find("edits"), std::string::npos) << pointer << " " << value;
+    }
+}
+
 TEST(Session, UnknownFieldsAreNamed) {
     const TempDir folder;
     const std::string path = folder / "s.midway";
@@ -194,7 +262,7 @@ TEST(Session, WhatIsNoSessionIsRefused) {
          {std::string("[]"), std::string("{}"), std::string(3 << 20, '['),
           std::string(5 << 20, ' ') + good, std::string("{\"format\": 3}"),
           std::string("\xff\xfe{}"),
-          std::string("{\"format\": \"midway session\", \"version\": 2}"),
+          std::string("{\"format\": \"midway session\", \"version\": 3}"),
           std::string(
               "{\"format\": \"midway session\", \"version\": 1, \"scene\": \"b.midway\"}")}) {
         std::ofstream(path) << text;
