@@ -45,12 +45,16 @@ double share(double seconds, double half_life) { return 1 - std::exp2(-seconds /
 
 dvec3 to_file(const Normalisation& n, const vec3& p) { return dvec3(p) / n.scale + n.center; }
 
-std::optional<dvec3> first_hit(const Scene& scene, const dvec3& eye, const dvec3& direction) {
+std::optional<SurfacePoint> first_surface(const Scene& scene, const dvec3& eye,
+                                          const dvec3& direction) {
     const Normalisation& n = scene.geometry->normalisation;
-    const Ray ray{vec3((eye - n.center) * n.scale), vec3(glm::normalize(direction))};
-    const std::optional<SurfacePoint> p = intersect(scene, ray, 0);
+    return intersect(scene, {vec3((eye - n.center) * n.scale), vec3(glm::normalize(direction))}, 0);
+}
+
+std::optional<dvec3> first_hit(const Scene& scene, const dvec3& eye, const dvec3& direction) {
+    const std::optional<SurfacePoint> p = first_surface(scene, eye, direction);
     if (!p) return {};
-    return to_file(n, p->position);
+    return to_file(scene.geometry->normalisation, p->position);
 }
 
 }  // namespace
@@ -107,6 +111,13 @@ double depth_of(const View& v, const dvec3& point) {
 std::optional<dvec3> surface_at(const Scene& scene, const View& view, const Viewport& port,
                                 const dvec2& pixel) {
     return first_hit(scene, view.eye, pixel_direction(view, port, pixel));
+}
+
+std::optional<PickedObject> object_at(const Scene& scene, const View& view, const Viewport& port,
+                                      const dvec2& pixel) {
+    const auto p = first_surface(scene, view.eye, pixel_direction(view, port, pixel));
+    if (!p) return {};
+    return PickedObject{p->hit.object, to_file(scene.geometry->normalisation, p->position)};
 }
 
 dvec3 natural_pivot(const Scene& scene, const View& view) {

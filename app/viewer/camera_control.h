@@ -49,6 +49,14 @@ double depth_of(const View& view, const dvec3& point);
 std::optional<dvec3> surface_at(const Scene& scene, const View& view, const Viewport& viewport,
                                 const dvec2& pixel);
 
+// The object seen at a pixel: its index in the geometry, and the point of it in the file's units.
+struct PickedObject {
+    int object = -1;
+    dvec3 point{0};
+};
+std::optional<PickedObject> object_at(const Scene& scene, const View& view,
+                                      const Viewport& viewport, const dvec2& pixel);
+
 // Where the view axis meets the scene, or passes nearest to its centre: a first pivot.
 dvec3 natural_pivot(const Scene& scene, const View& view);
 

@@ -43,7 +43,8 @@ struct Engine {
     bool reloading = false;                    // the same file again: camera and lights stay
     std::string save_later;                    // image to save at the first whole pass
     bool refit = true;          // with fit_window: make the image as large as the view
-    Clock::time_point resized;  // the window
+    std::optional<Clock::time_point> scene_edited;  // when the change was made that just arrived
+    Clock::time_point resized;                      // the window
     Clock::time_point looked;   // at the files' stamp
 };
 

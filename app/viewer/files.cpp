@@ -1,5 +1,6 @@
 #include "files.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,7 +10,9 @@
 
 #include "display_maths.h"
 #include "image/png.h"
+#include "math/hash.h"
 #include "render/command_line.h"
+#include "render/film_file.h"
 #include "render/image_metadata.h"
 #include "script_set.h"
 
@@ -97,6 +100,7 @@ void set_sky(App& app, Engine& engine, const std::string& text) {
         throw std::runtime_error("no scene to light (" + text + "); open a scene first");
     SceneOptions& o = app.document.options;
     o.sky.reset();
+    o.edits.sky = {};
     if (!text.empty())
         o.sky = fs::exists(text) ? fs::absolute(text).lexically_normal() : fs::path(text);
     apply(app, engine, {.scene = true}, Engine::Clock::now());
@@ -155,9 +159,16 @@ std::string command_line_of(const App& app, const Engine& engine) {
     if (!job) return {};
     RenderLimits limits = app.render.limits;
     if (app.snapshot->scale == 1 && app.snapshot->passes > 0) limits = {app.snapshot->passes, {}};
-    const fs::path scene(job->prepared->options.path);
-    return command_line(job->prepared->options, shown_settings(app, *job), limits,
-                        scene.stem().string() + ".exr");
+    const SceneOptions& scene = job->prepared->options;
+    const RenderSettings settings = shown_settings(app, *job);
+    const std::string stem = fs::path(scene.path).stem().string();
+    if (scene.edits.empty()) return command_line(scene, settings, limits, stem + ".exr");
+    // The same edits have the same name: copying twice leaves one file.
+    const std::string chosen = settings_json(settings);
+    const std::uint64_t hash = hash_bytes(job->prepared->hash, chosen.data(), chosen.size());
+    const std::string session = fmt::format("{}-{:08x}.midway", stem, hash >> 32);
+    write_session(session, {scene, settings, {}, {}});
+    return session_command_line(session, limits, stem + ".exr");
 }
 
 Action action_of_drop(const std::string& path) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "viewer/edits.h"
 #include "viewer/panels/parts.h"
 #include "viewer/view.h"
 
@@ -182,6 +183,11 @@ const auto bindings = std::to_array<KeyBinding>({
     {where, GLFW_KEY_K, 0, "K", "store this view", store_bookmark},
     {where, GLFW_KEY_J, 0, "J", "go to the next stored view",
      [](A a) { return recall_bookmark(a, a.ui.panel.navigation.bookmark + 1); }},
+    {where, GLFW_KEY_U, 0, "U", "select: then click an object",
+     [](A a) { return tool(a, ViewTool::select); }},
+    {run, GLFW_KEY_Z, with_ctrl, "Ctrl+Z", "undo a change of the scene", undo_edit},
+    {run, GLFW_KEY_Z, with_ctrl | with_shift, "Ctrl+Shift+Z", "and do it again", redo_edit},
+    {run, GLFW_KEY_Y, with_ctrl, "", "", redo_edit},
     {run, GLFW_KEY_SPACE, 0, "Space", "pause, go on", pause},
     {run, GLFW_KEY_R, 0, "R", "begin again", restart},
     {run, GLFW_KEY_R, with_shift, "Shift+R", "region: then drag it",

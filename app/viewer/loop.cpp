@@ -185,6 +185,8 @@ void frame(Loop& l, Change change) {
     const ScriptStep step = play(l.script, l.app, l.engine, l.host);
     apply(l.app, l.engine, step.change, began);
     change |= step.change;
+    if (l.app.document.prepared)
+        note_wishes(l.app.undo, l.app.document.options, ImGui::IsAnyItemActive());
     act(l);
     follow_inspection(l.app, l.engine);
     if (change.any()) l.frames_due = std::max(l.frames_due, 2);

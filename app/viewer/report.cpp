@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comparison.h"
+#include "edits.h"
 #include "image/file.h"
 
 namespace midway {
@@ -150,6 +151,15 @@ void write_report(const std::string& path, const App& app, const Mark& mark) {
     for (const auto& [title, place] : app.ui.panel.section_places) j["sections"][title] = place;
     j["compare"] = comparison_json(app);
     j["curves"] = curves_json(app.compare);
+    j["edits"] = edits_in_words(app.document.options.edits);
+    j["lights"] = Json::array();
+    for (const Lamp& lamp : lamps(app))
+        j["lights"].push_back({{"name", lamp_name(app, lamp)}, {"on", lamp_is_on(app, lamp)}});
+    j["undo"] = app.undo.past.size();
+    j["redo"] = app.undo.future.size();
+    const Selection& selection = app.ui.panel.selection;
+    if (selection.material >= 0)
+        j["selected"] = {{"object", selection.object}, {"material", selection.material_name}};
     if (app.snapshot) {
         const Snapshot& s = *app.snapshot;
         j["job"] = s.job;

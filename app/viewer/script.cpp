@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "edits.h"
 #include "files.h"
 #include "image/file.h"
 #include "script_input.h"
@@ -29,13 +30,14 @@ struct Verb {
     size_t least, most;  // words after it
 };
 constexpr Verb verbs[] = {
-    {"open", 1, 1},       {"set", 2, 2},      {"camera", 2, 3},       {"key", 1, 1},
-    {"type", 1, 1},       {"move", 2, 2},     {"click", 2, 3},        {"drag", 4, 5},
-    {"scroll", 3, 3},     {"drop", 1, 1},     {"resize", 1, 1},       {"wait", 1, 2},
-    {"screenshot", 1, 1}, {"save", 1, 1},     {"save-session", 1, 1}, {"copy", 1, 1},
-    {"report", 1, 1},     {"mark", 0, 0},     {"reload", 0, 0},       {"timeout", 1, 1},
-    {"quit", 0, 0},       {"inspect", 1, 2},  {"hands", 1, 1},        {"keep", 0, 1},
-    {"reference", 1, 1},  {"save-plot", 1, 1}};
+    {"open", 1, 1},       {"set", 2, 2},       {"camera", 2, 3},       {"key", 1, 1},
+    {"type", 1, 1},       {"move", 2, 2},      {"click", 2, 3},        {"drag", 4, 5},
+    {"scroll", 3, 3},     {"drop", 1, 1},      {"resize", 1, 1},       {"wait", 1, 2},
+    {"screenshot", 1, 1}, {"save", 1, 1},      {"save-session", 1, 1}, {"copy", 1, 1},
+    {"report", 1, 1},     {"mark", 0, 0},      {"reload", 0, 0},       {"timeout", 1, 1},
+    {"quit", 0, 0},       {"inspect", 1, 2},   {"hands", 1, 1},        {"keep", 0, 1},
+    {"reference", 1, 1},  {"save-plot", 1, 1}, {"edit", 3, 4},         {"select", 2, 2},
+    {"undo", 0, 0},       {"redo", 0, 0},      {"reset", 0, 0}};
 
 std::vector<std::string> words_of(const std::string& line) {
     std::vector<std::string> words;
@@ -182,6 +184,16 @@ ScriptStep carry_out(ScriptPlayer& p, const std::vector<std::string>& w, App& ap
         ask(app, ActionKind::save_plot, w[1]);
     else if (verb == "set")
         step.change = set_value(app, w[1], w[2]);
+    else if (verb == "edit")
+        step.change = edit_by_name(app, {w.begin() + 1, w.end()});
+    else if (verb == "undo")
+        step.change = undo_edit(app);
+    else if (verb == "redo")
+        step.change = redo_edit(app);
+    else if (verb == "reset")
+        step.change = reset_scene(app);
+    else if (verb == "select")
+        select_at(app, {float(number(w[1])), float(number(w[2]))});
     else if (verb == "camera")
         step.change = move_camera(w, app);
     else if (verb == "resize")

@@ -9,6 +9,8 @@
 //        | frames N | inspected | measured | file F (until there is such a file)
 //   inspect X,Y[,SAMPLE|,brightest] | brightest | nonfinite | path N | off
 //   screenshot F.png     save F.exr|F.png                  save-session F.midway
+//   edit light|material NAME|INDEX KEY VALUE           edit sky KEY VALUE (edits.h)
+//   select X Y           undo        redo              reset (the scene as in the file)
 //   copy F.txt           report F.json                     mark        reload
 //   keep [NAME]          reference FILE|none               save-plot F.png|F.csv
 //   timeout SECONDS      hands on|off                      quit

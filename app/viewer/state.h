@@ -15,6 +15,7 @@
 #include "viewer/camera_control.h"
 #include "viewer/compare_state.h"
 #include "viewer/ui_state.h"
+#include "viewer/undo.h"
 
 namespace midway {
 
@@ -38,7 +39,7 @@ struct Change {
 struct Document {
     std::string path;                               // .gltf, .glb or .midway; empty at first
     std::shared_ptr<const PreparedScene> prepared;  // null before; never changed once here
-    SceneOptions options;                           // wishes beside the file: sky, lamps, camera
+    SceneOptions options;                           // wishes beside the file: edits, camera
     std::vector<std::string> files;                 // what the scene was read from, and
     std::uint64_t stamp = 0;                        // file_stamp(files) then
     std::vector<std::string> warnings;
@@ -153,6 +154,7 @@ struct App {
     Ui ui;
     std::shared_ptr<const Snapshot> snapshot;         // the newest; null before the first
     std::shared_ptr<const ChannelSnapshot> channels;  // albedo ... while one is shown
+    UndoStack undo;                                   // of the document's wishes
     std::vector<Action> actions;                      // asked for in this frame
     Timings timings;
 };

@@ -24,8 +24,9 @@ struct Arrangement {
     std::map<std::string, bool> sections;  // open or closed, by title; absent: as by default
 };
 
-// What a click or a drag of the left button in the view does; with `inspect` a drag still orbits.
-enum class ViewTool { orbit, focus, region, inspect };
+// What a click or a drag of the left button in the view does; with `inspect` and `select` a drag
+// still orbits.
+enum class ViewTool { orbit, focus, region, inspect, select };
 
 enum class Gesture { none, orbit, pan, dolly, fly, region, image_pan };
 
@@ -68,10 +69,51 @@ struct StatusCache {
     std::optional<double> error;
 };
 
+// Kinds of what stands in the list of lights; indices are those of the file.
+enum class LampKind { none, sky, material, light };
+struct Lamp {
+    LampKind kind = LampKind::none;
+    int index = 0;
+    bool operator==(const Lamp&) const = default;
+};
+
+// What is being edited. Names tell whether a file that was read again still means the same.
+struct Selection {
+    int material = -1;
+    std::string material_name;
+    int instance = -1;      // the object that was clicked
+    std::string object;     // its name
+    dvec3 point{0};         // where it was clicked
+    Lamp lamp;              // in the list of lights
+    Lamp hovered;           // there, in this frame
+    double seen_until = 0;  // the mark in the view, in ImGui::GetTime()
+    bool show = false;      // the panel comes into sight
+};
+
+// What is worked out once for each scene: triangles and objects of each material.
+struct MaterialUse {
+    const void* of = nullptr;
+    std::vector<size_t> triangles, objects;
+};
+
+// Bounds of marked objects in the file's units, and what they were found for.
+struct MarkedObject {
+    dvec3 lower{0}, upper{0};
+};
+struct Marks {
+    const void* of = nullptr;  // geometry
+    Lamp lamp;
+    int instance = -1;
+    std::vector<MarkedObject> objects;
+};
+
 struct PanelState {
     Arrangement arrangement;
     Navigation navigation;
     FileFields files;
+    Selection selection;
+    MaterialUse use;
+    Marks marks;
     StatusCache status;
     std::vector<Message> messages;                           // the newest last
     std::string last_notice, last_error, last_render_error;  // already in `messages`

@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace midway {
+namespace {
+
+// Thrown through update_scene by its progress; no std::exception, since it is no failure.
+struct Superseded {};
+
+}  // namespace
 
 SceneUpdater::SceneUpdater(std::function<void()> finished)
     : finished_(std::move(finished)), thread_([this] { work(); }) {}
@@ -14,9 +20,10 @@ SceneUpdater::~SceneUpdater() {
     wake_.notify_all();
 }
 
-void SceneUpdater::submit(std::shared_ptr<const PreparedScene> scene, SceneOptions options) {
+void SceneUpdater::submit(std::shared_ptr<const PreparedScene> scene, SceneOptions options,
+                          std::chrono::steady_clock::time_point edited) {
     const std::lock_guard lock(mutex_);
-    pending_ = Request{std::move(scene), std::move(options)};
+    pending_ = Request{std::move(scene), std::move(options), edited};
     wake_.notify_all();
 }
 
@@ -25,6 +32,7 @@ void SceneUpdater::forget() {
     ++generation_;
     pending_.reset();
     result_.reset();
+    newest_.reset();
 }
 
 bool SceneUpdater::busy() const {
@@ -37,6 +45,22 @@ std::optional<UpdateResult> SceneUpdater::take() {
     return std::exchange(result_, std::nullopt);
 }
 
+UpdateResult SceneUpdater::update(const Request& request, const PreparedScene& from) {
+    UpdateResult result;
+    result.edited = request.edited;
+    try {
+        result.prepared = std::make_shared<const PreparedScene>(
+            update_scene(from, request.options, [&](const char*, double) {
+                const std::lock_guard lock(mutex_);
+                if (quit_ || (pending_ && pending_->options.sky != request.options.sky))
+                    throw Superseded{};
+            }));
+    } catch (const std::exception& e) {
+        result.error = e.what();
+    }
+    return result;
+}
+
 void SceneUpdater::work() {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -46,17 +70,19 @@ void SceneUpdater::work() {
         pending_.reset();
         working_ = true;
         const std::uint64_t generation = generation_;
+        // What was made here last may already hold what this change asks for.
+        const bool same_file = newest_ && newest_->file == request.scene->file;
+        const std::shared_ptr<const PreparedScene> from = same_file ? newest_ : request.scene;
         lock.unlock();
-        UpdateResult result;
+        std::optional<UpdateResult> result;
         try {
-            result.prepared = std::make_shared<const PreparedScene>(
-                update_scene(*request.scene, request.options));
-        } catch (const std::exception& e) {
-            result.error = e.what();
+            result = update(request, *from);
+        } catch (const Superseded&) {
         }
         lock.lock();
         working_ = false;
-        if (generation == generation_) {
+        if (result && generation == generation_) {
+            if (result->prepared) newest_ = result->prepared;
             result_ = std::move(result);
             finished_();
         }

@@ -6,6 +6,7 @@
 #include <random>
 #include <thread>
 
+#include "render/live_render.h"
 #include "report/error_log.h"
 #include "viewer/error_meter.h"
 #include "viewer/tasks.h"
@@ -98,6 +99,58 @@ TEST(SceneUpdater, EndsAtAnyMoment) {
         }
         waker.set({});
     }
+}
+
+// What an edited scene shares with the ones before is read by their workers and by the updater at
+// once; the last image is that of the edits loaded with the file.
+TEST(SceneUpdater, EditsStreamIntoTheRender) {
+    const auto scene = assets_scene();
+    SceneUpdater updater([] {});
+    LiveRender live;
+    std::mt19937 random(11);
+    LiveJob job;
+    job.settings.width = job.settings.height = 24;
+    job.settings.max_bounces = 4;
+    job.threads = 2;
+    SceneOptions o = scene->options;
+    std::shared_ptr<const PreparedScene> now = scene;
+    const auto show = [&](const std::optional<UpdateResult>& result) {
+        if (!result) return;
+        ASSERT_TRUE(result->prepared) << result->error;
+        now = result->prepared;
+        job.scene = now->scene;
+        job.camera = now->camera;
+        live.submit(job);
+    };
+    const auto materials = static_cast<int>(scene->file->materials.size());
+    for (int i = 0; i < 200; ++i) {
+        const int k = static_cast<int>(random()) % materials;
+        MaterialEdit e = edit_of(o.edits, scene->file->materials, std::abs(k));
+        if (random() % 2) e.emission_strength = float(random() % 3);
+        if (random() % 2) e.transmission = float(random() % 2);
+        if (random() % 8 == 0) e.alpha = 0.5f;
+        set_edit(o.edits, scene->file->materials, std::abs(k), e);
+        if (random() % 8 == 0) o.sky = random() % 2 ? "0.1,0.2,0.3" : "1,1,1";
+        updater.submit(now, o);
+        std::this_thread::sleep_for(std::chrono::microseconds(random() % 3000));
+        show(updater.take());
+    }
+    while (updater.busy()) {
+        show(updater.take());
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const PreparedScene fresh = prepare_scene(o);
+    EXPECT_EQ(now->hash, fresh.hash);
+    job.stop_passes = 2;
+    const std::uint64_t last = live.submit(job);
+    const auto done = wait_for([&] {
+        const auto s = live.snapshot();
+        return s && s->job == last && s->finished ? s : nullptr;
+    });
+    ASSERT_TRUE(done);
+    ProgressiveRenderer r(fresh.scene, fresh.camera, job.settings, {});
+    r.render_passes(2);
+    EXPECT_TRUE(done->images[0]->pixels == r.image().pixels);
 }
 
 TEST(Tasks, RunInOrderAndFinishBeforeTheEnd) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "viewer/edits.h"
 #include "viewer/panels/parts.h"
 #include "viewer/theme.h"
 #include "viewer/view.h"
@@ -19,10 +20,12 @@ Viewport viewport_of(const App& app) {
             static_cast<double>(app.render.settings.height)};
 }
 
-dvec2 mouse_in_image(const App& app) {
+vec2 mouse_on_screen() {
     const ImVec2 m = ImGui::GetIO().MousePos;
-    return dvec2(image_position(app, {m.x, m.y}));
+    return {m.x, m.y};
 }
+
+dvec2 mouse_in_image(const App& app) { return dvec2(image_position(app, mouse_on_screen())); }
 
 const Scene& scene_of(const App& app) { return *app.document.prepared->scene; }
 
@@ -109,11 +112,15 @@ void begin(App& app) {
         n.pivot_seen_until = ImGui::GetTime() + 0.6;
 }
 
-// With the inspector in hand a click is no orbit, though the hand may shake.
+bool orbits_by_drag_alone(ViewTool tool) {
+    return tool == ViewTool::inspect || tool == ViewTool::select;
+}
+
+// With such a tool in hand a click is no orbit, though the hand may shake.
 bool is_click(const App& app) {
     const Navigation& n = app.ui.panel.navigation;
     const double points = zoom_in_use(app) * glm::length(mouse_in_image(app) - n.region_start);
-    return n.tool == ViewTool::inspect && n.gesture == Gesture::orbit && !n.dragged &&
+    return orbits_by_drag_alone(n.tool) && n.gesture == Gesture::orbit && !n.dragged &&
            points < ui::em(0.3f);
 }
 
@@ -121,8 +128,10 @@ Change end(App& app) {
     Navigation& n = app.ui.panel.navigation;
     Change change;
     if (is_click(app)) {
-        const ImVec2 m = ImGui::GetIO().MousePos;
-        if (const auto pixel = pixel_at(app, {m.x, m.y})) inspect_pixel(app, *pixel);
+        const auto pixel = pixel_at(app, mouse_on_screen());
+        if (n.tool == ViewTool::inspect && pixel) inspect_pixel(app, *pixel);
+        if (n.tool == ViewTool::select && !select_at(app, mouse_on_screen()))
+            notify(app, "nothing there to select", ImGui::GetTime());
     }
     if (n.gesture == Gesture::fly)
         app.camera.pivot = natural_pivot(scene_of(app), current_view(app));
@@ -288,8 +297,8 @@ Change draw_navigation(App& app) {
     Navigation& n = app.ui.panel.navigation;
     const void* geometry = scene_of(app).geometry.get();
     if (n.pivot_of != geometry) {
-        const bool inspecting = n.tool == ViewTool::inspect;
-        n = Navigation{.tool = inspecting ? ViewTool::inspect : ViewTool::orbit, .speed = n.speed};
+        n = Navigation{.tool = orbits_by_drag_alone(n.tool) ? n.tool : ViewTool::orbit,
+                       .speed = n.speed};
         n.pivot_of = geometry;
         app.camera.pivot = natural_pivot(scene_of(app), current_view(app));
     }

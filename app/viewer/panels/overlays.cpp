@@ -65,12 +65,14 @@ void draw_banners(App& app) {
         shift += banner(app, "##render error", theme::error, app.snapshot->error, shift, nullptr);
     if (app.document.prepared && app.document.prepared->default_sky)
         shift += banner(app, "##default sky", theme::light,
-                        "This file has no light: a soft default sky shines (Scene > Sky).", shift,
+                        "This file has no light: a soft default sky shines (Lights > Sky).", shift,
                         nullptr);
     const char* hint = app.ui.panel.navigation.tool == ViewTool::focus
                            ? "Click the point that shall be sharp. Esc: never mind."
                        : app.ui.panel.navigation.tool == ViewTool::region
                            ? "Drag a rectangle over the image. Esc: never mind."
+                       : app.ui.panel.navigation.tool == ViewTool::select
+                           ? "Click an object to see and edit its material. Esc: done."
                            : nullptr;
     if (hint) banner(app, "##hint", theme::text, hint, shift, nullptr);
 }

@@ -7,7 +7,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 19> table = {{
+constexpr std::array<Panel, 22> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
@@ -19,10 +19,13 @@ constexpr std::array<Panel, 19> table = {{
     {"compare", draw_compare},
     {"error plot", draw_error_plot},
     {"scene", draw_scene},
+    {"lights", draw_lights},
+    {"material", draw_material},
     {"files", draw_files},
     {"messages", draw_messages},
     {"status", draw_status},
     {"compare view", draw_compare_view},
+    {"selection", draw_selection},
     {"overlays", draw_overlays},
     {"gallery", draw_gallery},
     {"keys", draw_keys},

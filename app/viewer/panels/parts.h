@@ -20,6 +20,8 @@ Change draw_camera(App& app);
 // Right column.
 Change draw_display(App& app);
 Change draw_scene(App& app);
+Change draw_lights(App& app);
+Change draw_material(App& app);
 Change draw_compare(App& app);
 Change draw_error_plot(App& app);
 Change draw_files(App& app);
@@ -27,6 +29,7 @@ Change draw_messages(App& app);
 
 // Over the image.
 Change draw_status(App& app);
+Change draw_selection(App& app);  // marks the object or lamp that is being edited
 Change draw_overlays(App& app);   // loading, notices, default sky, legend
 Change draw_inspector(App& app);  // the dock below, the lines' names, the pixel under the mouse
 Change draw_gallery(App& app);
