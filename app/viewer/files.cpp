@@ -166,7 +166,8 @@ std::string command_line_of(const App& app, const Engine& engine) {
     // The same edits have the same name: copying twice leaves one file.
     const std::string chosen = settings_json(settings);
     const std::uint64_t hash = hash_bytes(job->prepared->hash, chosen.data(), chosen.size());
-    const std::string session = fmt::format("{}-{:08x}.midway", stem, hash >> 32);
+    const std::string name = fmt::format("{}-{:08x}.midway", stem, hash >> 32);
+    const std::string session = fs::absolute(name).string();  // the line works from any folder
     write_session(session, {scene, settings, {}, {}});
     return session_command_line(session, limits, stem + ".exr");
 }

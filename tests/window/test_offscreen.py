@@ -1,5 +1,6 @@
 """The window drawn in memory, driven by scripts."""
 
+import json
 import re
 import subprocess
 from pathlib import Path
@@ -134,6 +135,91 @@ class Files(WindowTest):
         self.assertEqual(batch.read_bytes(), (self.folder / "b.exr").read_bytes())
         self.assertNotEqual((self.folder / "a.exr").read_bytes(),
                             (self.folder / "b.exr").read_bytes())
+
+
+class Edits(WindowTest):
+    """Lights and materials: what the window shows is what a file with these values shows."""
+
+    WORDS = ("edit material chalk base_color 0.3,0.7,0.1\nedit material chalk roughness 0.15\n"
+             "edit material 1 emission_color 1,0.3,0.2\nedit material lamp emission_strength 7.7\n"
+             "edit light bulb kind spot\nedit light bulb strength 11.3\n"
+             "edit light bulb outer_angle 0.9\nedit light bulb inner_angle 0.2\n")
+
+    def edited_file(self):
+        other = tiny_scene.document()
+        chalk, lamp = other["materials"]
+        chalk["pbrMetallicRoughness"].update(baseColorFactor=[0.3, 0.7, 0.1, 1],
+                                             roughnessFactor=0.15)
+        lamp["emissiveFactor"] = [1, 0.3, 0.2]
+        lamp["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": 7.7}}
+        other["extensionsUsed"].append("KHR_materials_emissive_strength")
+        bulb = other["extensions"]["KHR_lights_punctual"]["lights"][0]
+        bulb.update(type="spot", intensity=11.3,
+                    spot={"innerConeAngle": 0.2, "outerConeAngle": 0.9})
+        path = self.folder / "edited.gltf"
+        path.write_text(json.dumps(other))
+        return path
+
+    def bits(self, name):
+        exr = ExrFile(self.folder / name)
+        return exr.chunks, exr.attributes["midway:scene_hash"]
+
+    def test_an_edit_is_as_if_the_file_had_the_value_and_undo_takes_it_back(self):
+        self.play(f"open {self.edited_file()}\nset size 40x30\nset spp 2\nwait idle\n"
+                  f"save file.exr\nwait saved\nopen {self.scene}\nwait idle\nsave before.exr\n"
+                  f"wait saved\n{self.WORDS}wait idle\nsave edited.exr\nwait saved\n"
+                  "copy line.txt\nsave-session s.midway\nwait saved\nreport edited.json\n"
+                  + "undo\n" * 8 + "wait idle\nsave undone.exr\nwait saved\nreport undone.json\n"
+                  + "redo\n" * 8 + "wait idle\nsave redone.exr\nwait saved\n"
+                  "reset\nwait idle\nsave reset.exr\nwait saved\nreport reset.json\n"
+                  "open s.midway\nwait idle\nsave session.exr\nwait saved")
+        for name in ("edited.exr", "redone.exr", "session.exr"):
+            self.assertEqual(self.bits("file.exr"), self.bits(name), name)
+        for name in ("undone.exr", "reset.exr"):
+            self.assertEqual(self.bits("before.exr"), self.bits(name), name)
+        self.assertNotEqual(self.bits("before.exr"), self.bits("edited.exr"))
+        self.assertEqual((8, 0), tuple(self.report("edited.json")[k] for k in ("undo", "redo")))
+        self.assertEqual((0, 8), tuple(self.report("undone.json")[k] for k in ("undo", "redo")))
+        self.assertEqual(9, self.report("reset.json")["undo"])
+        self.assertEqual(3, len(self.report("edited.json")["edits"]))
+        batch = self.run_command_line(self.folder / "line.txt")
+        self.assertEqual(batch.read_bytes(), (self.folder / "edited.exr").read_bytes())
+
+    def test_edits_find_their_place_after_a_reload(self):
+        self.play(f"open {self.scene}\nset size 24x18\nset spp 1\nwait idle\n{self.WORDS}"
+                  "wait idle\nsave a.exr\nwait saved\nreload\nwait reload\nwait idle\n"
+                  "save b.exr\nwait saved\nreport b.json")
+        self.assertEqual(self.bits("a.exr"), self.bits("b.exr"))
+        self.assertEqual(3, len(self.report("b.json")["edits"]))
+
+    def test_edits_of_what_a_reloaded_file_no_longer_holds_are_named(self):
+        self.play(f"open {self.scene}\nset size 24x18\nset spp 1\nwait idle\n{self.WORDS}"
+                  "wait idle\nsave-session s.midway\nwait saved")
+        other = tiny_scene.document()
+        other["materials"][0]["name"] = "slate"
+        self.scene.write_text(json.dumps(other))
+        self.play("open s.midway\nwait idle\nreport r.json")
+        report = self.report("r.json")
+        self.assertEqual("", report["error"])
+        self.assertTrue(any('"chalk"' in line for line in report["warnings"]), report["warnings"])
+
+    def test_a_click_selects_and_a_drag_is_one_step(self):
+        """On the first lamp's strength; the rows of the right column have fixed places."""
+        self.play(f"open {self.scene}\nset size 64x48\nset spp 2\nwait idle\nwait frames 3\n"
+                  "key u\nclick 500 420\nwait idle\nwait frames 3\nscreenshot selected.png\n"
+                  "report selected.json", size="1000x800")
+        self.keep("selected.png")
+        selected = self.report("selected.json")["selected"]
+        self.assertEqual({"object": "room", "material": "chalk"}, selected)
+
+    def test_every_edit_shows_an_image_and_its_time_is_told(self):
+        edits = "".join(f"edit light bulb strength {i}\nwait image\nwait frames 2\n"
+                        for i in range(10, 20))
+        self.play(f"open {self.scene}\nset size 64x48\nwait spp 1\nmark\n{edits}report r.json")
+        report = self.report("r.json")
+        self.assertEqual(10, report["edit_to_image"]["count"])
+        self.assertGreater(report["edit_to_image"]["median"], 0)
+        self.assertEqual(['light "bulb": strength 19'], report["edits"])
 
 
 class Behaviour(WindowTest):

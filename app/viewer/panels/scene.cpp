@@ -16,20 +16,12 @@ std::string counted(size_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
+// One line, whatever is edited: nothing below may jump when a lamp is switched.
 std::string contents(const PreparedScene& p) {
     const Geometry& g = *p.scene->geometry;
-    size_t emissive = 0, lamps = 0;
-    for (const Light& l : p.scene->lights) {
-        emissive += l.kind == LightKind::area;
-        lamps += is_delta(l.kind);
-    }
-    std::string text =
-        fmt::format("{}, {}, {}", counted(g.triangle_count, "triangle", "triangles"),
-                    counted(g.objects.size(), "object", "objects"),
-                    counted(p.description.materials.size(), "material", "materials"));
-    if (emissive > 0) text += ", " + counted(emissive, "triangle", "triangles") + " that shine";
-    if (lamps > 0) text += ", " + counted(lamps, "lamp", "lamps") + " without size";
-    return text;
+    return fmt::format("{}, {}, {}", counted(g.triangle_count, "triangle", "triangles"),
+                       counted(g.objects.size(), "object", "objects"),
+                       counted(p.description.materials.size(), "material", "materials"));
 }
 
 // What was changed, and the way back.
@@ -68,7 +60,10 @@ Change draw_scene(App& app) {
         const std::string name = std::filesystem::path(d.path).filename().string();
         ImGui::TextUnformatted(ui::fitted(name, ImGui::GetContentRegionAvail().x).c_str());
         ui::tip(d.path.c_str());
-        ui::wrapped(theme::text_dim, contents(*d.prepared));
+        const std::string text = contents(*d.prepared);
+        ImGui::TextColored(theme::text_dim, "%s",
+                           ui::fitted(text, ImGui::GetContentRegionAvail().x).c_str());
+        ui::tip(text.c_str());
         change |= draw_changes(app);
         if (!d.warnings.empty() &&
             ImGui::TreeNode(
