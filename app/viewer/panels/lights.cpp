@@ -260,7 +260,7 @@ Change draw_sky_source(App& app) {
         ask(app, ActionKind::set_sky, f.sky_path);
     if (!p.sky || p.sky->map) {
         ui::row("", "");
-        if (ui::wide_button("One colour instead",
+        if (ui::wide_button("Use one colour",
                             "The same light from everywhere; its colour stands in the list.", -1))
             ask(app, ActionKind::set_sky, "0.5,0.5,0.5");
     }
