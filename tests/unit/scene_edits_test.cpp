@@ -178,8 +178,14 @@ TEST(SceneEdits, StepByStepIsTheSameAsLoading) {
     }
 }
 
-// A lamp with a texture and holes, beside glass: what is shared with the scene before is never
-// stale.
+std::shared_ptr<const Image> random_map(std::mt19937& random) {
+    auto map = std::make_shared<Image>(8, 4);
+    for (vec3& p : map->pixels) p = vec3(float(random() % 100));
+    return map;
+}
+
+// A lamp with a texture and holes, beside glass, under one of two skies: what is shared with the
+// scene before is never stale.
 TEST(SceneEdits, TexturesAndHolesOfLampsAreNeverStale) {
     SceneDescription d;
     auto image = std::make_shared<TextureImage>();
@@ -193,6 +199,7 @@ TEST(SceneEdits, TexturesAndHolesOfLampsAreNeverStale) {
     for (const vec3& p : mesh.positions) mesh.texcoords[0].emplace_back(p.x, p.z);
     add(d, mesh, m);
     add(d, make_icosphere({0, 2, 0}, 0.5f, 1, false, true), glass(0));
+    const std::shared_ptr<const Image> maps[] = {random_map(random), random_map(random), nullptr};
     std::vector<std::string> warnings;
     Scene now = build_scene(d, warnings);
     const auto number = [&] { return float(random() % 100) / 100; };
@@ -204,7 +211,9 @@ TEST(SceneEdits, TexturesAndHolesOfLampsAreNeverStale) {
         if (random() % 3 == 0) l.alpha_cutoff = number();
         if (random() % 3 == 0) l.double_sided = random() % 2;
         if (random() % 4 == 0) l.emission_texture.rows[0].z = number();
+        if (random() % 4 == 0) l.base_color_texture.image = int(random() % 2) - 1;
         if (random() % 4 == 0) d.materials[1].transmission = float(random() % 2);
+        if (random() % 2 == 0) d.sky = SkyDescription{.map = maps[random() % 3]};
         BuildOptions options;
         options.previous = &now;
         const Scene next = build_scene(d, warnings, options), fresh = build_scene(d, warnings);
@@ -269,6 +278,12 @@ TEST(SceneEdits, ALampSwitchedOffIsNotReplacedByASky) {
     EXPECT_TRUE(dark.scene->lights.empty());
     EXPECT_EQ(dark.scene->total_power, 0);
     for (const vec3& p : pixels(dark)) EXPECT_EQ(p, vec3(0));
+    // Nor is one that was dimmed to nothing.
+    for (MaterialEdit& e : o.edits.materials) {
+        e.on = true;
+        e.emission_strength = 0.0f;
+    }
+    EXPECT_FALSE(update_scene(old, o).default_sky);
 }
 
 TEST(SceneEdits, EmissionComesApartAsTheFileHasIt) {

@@ -101,6 +101,20 @@ TEST(SceneUpdater, EndsAtAnyMoment) {
     }
 }
 
+// The same file read again is another one, though its name is the same.
+TEST(SceneUpdater, StartsFromTheFileThatItIsGiven) {
+    const auto first = assets_scene(), second = assets_scene();
+    SceneUpdater updater([] {});
+    SceneOptions o = first->options;
+    for (const auto& scene : {first, second, first}) {
+        o.lamp_strength += 1;
+        updater.submit(scene, o);
+        const auto result = wait_for([&] { return updater.take(); });
+        ASSERT_TRUE(result && result->prepared);
+        EXPECT_EQ(result->prepared->file, scene->file);
+    }
+}
+
 // What an edited scene shares with the ones before is read by their workers and by the updater at
 // once; the last image is that of the edits loaded with the file.
 TEST(SceneUpdater, EditsStreamIntoTheRender) {
