@@ -53,13 +53,13 @@ void draw_place(App& app, int material) {
     const std::string used =
         fmt::format("{} object{}, {} triangle{}", use.objects[k], use.objects[k] == 1 ? "" : "s",
                     use.triangles[k], use.triangles[k] == 1 ? "" : "s");
-    ui::row("Used by", "What changes with this material.");
-    const std::string text = object.empty() ? used : "\"" + object + "\" and others: " + used;
-    const std::string alone = object.empty() ? used : "\"" + object + "\"";
+    std::string text = object.empty() ? used : "\"" + object + "\"";
+    if (!object.empty() && use.objects[k] > 1)
+        text += fmt::format(" + {} more", use.objects[k] - 1);
+    ui::row("Used by", "The objects that change with this material.");
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(
-        ui::fitted(use.objects[k] == 1 ? alone : text, ImGui::GetContentRegionAvail().x).c_str());
-    ui::tip(text.c_str());
+    ImGui::TextUnformatted(ui::fitted(text, ImGui::GetContentRegionAvail().x).c_str());
+    ui::tip(used.c_str());
 }
 
 // The texture that a value is multiplied with.
