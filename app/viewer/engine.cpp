@@ -188,10 +188,10 @@ void restart_render(App& app, Engine& engine, Engine::Clock::time_point edited) 
     engine.live.pause(r.paused);
     const std::uint64_t number = engine.live.submit(job);
     engine.jobs.push_back({number, app.document.prepared, job.settings, edited});
+    if (engine.jobs.size() > kept_jobs) engine.jobs.pop_front();
     // Images that are no longer on the screen need no scene: with many lamps each one is large.
-    while (engine.jobs.size() > kept_jobs ||
-           (app.snapshot && engine.jobs.front().number < app.snapshot->job))
-        engine.jobs.pop_front();
+    for (SubmittedJob& old : engine.jobs)
+        if (app.snapshot && old.number < app.snapshot->job) old.prepared.reset();
     engine.applied = r;
 }
 

@@ -18,7 +18,7 @@ namespace midway {
 // A job of the render, as long as its image may be on the screen: what a file of it must say.
 struct SubmittedJob {
     std::uint64_t number = 0;
-    std::shared_ptr<const PreparedScene> prepared;
+    std::shared_ptr<const PreparedScene> prepared;  // null once its image is no longer shown
     RenderSettings settings;
     std::chrono::steady_clock::time_point edited;  // when the change was made
     bool shown = false;

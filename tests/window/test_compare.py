@@ -1,6 +1,5 @@
 """A against B, references and the curves of the error: offscreen by scripts, and by hand."""
 
-import json
 import subprocess
 import time
 import unittest
@@ -187,30 +186,8 @@ class CompareByHand(HandsTest):
     """As a person would, with real events; a script only waits for the word and reports."""
 
     def open_idol(self):
-        lines = ["timeout 200", f"open {ASSETS / 'idol.glb'}", "set size 142x138", "set spp 4",
-                 "wait loaded", "wait idle", "hands off"]
-        for step in range(40):
-            lines += [f"wait file go-{step}", "wait idle", "wait measured", "wait frames 3",
-                      f"report look-{step}.json"]
-        (self.folder / "script.txt").write_text("\n".join(lines))
-        self.step = 0
-        self.open_window("--window", "1280x720", "--script", "script.txt")
-        self.wait_for_title("idol.glb - Midway")
-
-    def state(self):
-        """What the window reports once it has done what it was asked to."""
-        time.sleep(0.3 * window_test.slow)
-        (self.folder / f"go-{self.step}").touch()
-        path = self.folder / f"look-{self.step}.json"
-        self.step += 1
-        if not wait_for(path.exists, 120):
-            self.fail(f"no report; {self.process.poll()}")
-        return json.loads(path.read_text())
-
-    def click_in(self, report, section, below):
-        """A click in the section so many pixels below its top."""
-        x0, y0, _, _ = report["sections"][section]
-        self.hand("mousemove", round(x0 + 70), round(y0 + below), "click", 1)
+        self.open_in_steps([f"open {ASSETS / 'idol.glb'}", "set size 142x138", "set spp 4"],
+                           "idol.glb - Midway", ["wait measured"])
 
     def test_path_against_bdpt_on_the_idol(self):
         self.open_idol()

@@ -125,21 +125,21 @@ def wait_for(what, seconds=40):
 
 
 class Desktop:
-    """Xvfb on a display number of its own, and xdotool in it."""
+    """Xvfb on a display number that it finds itself, and xdotool in it."""
 
     def __init__(self, environment):
-        for number in range(91, 200):
-            if Path(f"/tmp/.X11-unix/X{number}").exists():
-                continue
-            self.server = subprocess.Popen(
-                ["Xvfb", f":{number}", "-screen", "0", "1280x720x24", "-nolisten", "tcp"],
-                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            self.environment = dict(environment, DISPLAY=f":{number}")
-            if wait_for(lambda: self.server.poll() is not None or self.hand("getmouselocation"), 20):
-                if self.server.poll() is None:
-                    return
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x720x24", "-nolisten", "tcp"],
+            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            pass_fds=[write])
+        os.close(write)
+        with open(read, encoding="ascii") as told:  # ends when the server does
+            number = told.readline().strip()
+        if not number:
             self.close()
-        raise RuntimeError("no display number from 91 to 199 is free")
+            raise RuntimeError("Xvfb found no display number")
+        self.environment = dict(environment, DISPLAY=f":{number}")
 
     def hand(self, *arguments):
         """xdotool's answer, empty where it failed."""
@@ -193,3 +193,30 @@ class HandsTest(WindowTest):
         for step in range(1, 9):
             self.hand("mousemove", x + dx * step // 8, y + dy * step // 8)
         self.hand("mouseup", 1)
+
+    def open_in_steps(self, lines, title, waits=()):
+        """Opens the window with a script that then leaves mouse and keys to the hands, and reports
+        whenever state() gives the word."""
+        lines = ["timeout 200", *lines, "wait loaded", "wait idle", "hands off"]
+        for step in range(40):
+            lines += [f"wait file go-{step}", "wait idle", *waits, "wait frames 3",
+                      f"report look-{step}.json"]
+        (self.folder / "script.txt").write_text("\n".join(lines))
+        self.step = 0
+        self.open_window("--window", "1280x720", "--script", "script.txt")
+        self.wait_for_title(title)
+
+    def state(self):
+        """What the window reports once it has done what it was asked to."""
+        time.sleep(0.3 * slow)
+        (self.folder / f"go-{self.step}").touch()
+        path = self.folder / f"look-{self.step}.json"
+        self.step += 1
+        if not wait_for(path.exists, 120):
+            self.fail(f"no report; {self.process.poll()}")
+        return json.loads(path.read_text())
+
+    def click_in(self, report, section, below):
+        """A click in the section so many pixels below its top."""
+        x0, y0, _, _ = report["sections"][section]
+        self.hand("mousemove", round(x0 + 70), round(y0 + below), "click", 1)
