@@ -69,8 +69,13 @@ SceneFeatures scene_features(const Scene& s) {
         f.rough |= diffuse || (mirrors && (sqr(m.roughness) >= smooth_alpha));
     }
     std::set<std::string_view> kinds;
-    for (const Light& l : s.lights) {
+    for (size_t i = 0; i < s.lights.size(); ++i) {
+        const Light& l = s.lights[i];
         if (!(l.power > 0)) continue;
+        // One triangle of a lamp that shines speaks for all that follow; there may be a million.
+        if (l.kind == LightKind::area)
+            i = static_cast<size_t>(s.first_light[l.object]) +
+                s.geometry->objects[l.object].triangles.size() - 1;
         if (is_delta(l.kind)) kinds.insert(kind_word(l.kind));
         (is_delta(l.kind) ? f.delta_lights : f.hittable_lights) = true;
     }

@@ -133,10 +133,10 @@ void make_light_tables(Scene& s) {
     if (!std::isfinite(s.total_power))
         throw std::runtime_error(
             "the lights' power is not finite (emission or intensity); use smaller numbers");
-    for (const Light& l : s.lights)
-        next_event.push_back(l.power > 0 ? (1 - even_share) * l.power / s.total_power +
-                                               even_share / double(shining)
-                                         : 0.0);
+    // From the short list: the lights themselves are many times as large.
+    for (const double p : power)
+        next_event.push_back(
+            p > 0 ? (1 - even_share) * p / s.total_power + even_share / double(shining) : 0.0);
     s.emission_pick = make_distribution(power);
     s.next_event_pick = make_distribution(next_event);
 }
