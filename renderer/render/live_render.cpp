@@ -4,24 +4,13 @@
 #include <exception>
 #include <utility>
 
+#include "render/live_pace.h"
+
 namespace midway {
 namespace {
 
-constexpr double first_image_budget = 0.02;  // seconds
-constexpr auto protected_age = std::chrono::milliseconds(50);
-// Snapshots come at least and at most so far apart, in between after a share of the time so far.
-// Resolving large images takes time from rendering: after the first second, at most this share.
-constexpr double shortest_interval = 1.0 / 60, longest_interval = 2, interval_share = 0.05;
-constexpr double first_second = 1, resolving_share = 0.03;
-
 double seconds_between(RenderControl::Clock::time_point a, RenderControl::Clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
-}
-
-double interval_after(double elapsed, double resolving) {
-    double interval = interval_share * elapsed;
-    if (elapsed > first_second) interval = std::max(interval, resolving / resolving_share);
-    return std::clamp(interval, shortest_interval, longest_interval);
 }
 
 }  // namespace
@@ -52,98 +41,8 @@ LiveRender::~LiveRender() {
     changed_.notify_all();
 }
 
-std::uint64_t LiveRender::submit(LiveJob job) {
-    const std::lock_guard lock(mutex_);
-    const auto now = Clock::now();
-    const bool stopping = !running_ || superseded();
-    if (!stopping && !first_out_ && now < started_ + protected_age) {
-        control_.cancel_at(started_ + protected_age);
-    } else if (!stopping || first_out_) {
-        if (running_ && !stop_asked_) stop_asked_ = now;
-        control_.cancel();
-    }
-    const std::uint64_t number = ++last_number_;
-    // The last holder of a scene pays for freeing it: not this thread.
-    if (pending_) retired_.push_back(std::move(pending_->job.scene));
-    if (current_) retired_.push_back(std::move(current_->scene));
-    current_ = job;
-    if (channels_wanted_) channels_.submit(number, job);
-    pending_ = Pending{number, std::move(job), now};
-    changed_.notify_all();
-    return number;
-}
-
-std::shared_ptr<const Snapshot> LiveRender::snapshot() const {
-    const std::lock_guard lock(mutex_);
-    return snapshot_;
-}
-
-void LiveRender::pause(bool paused) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (paused == paused_) return;
-        paused_ = paused;
-        // What is being stopped must not be woken to go on.
-        if (running_ && !superseded()) {
-            paused_for_ = paused_time(Clock::now());
-            paused_since_.reset();
-            if (paused) paused_since_ = Clock::now();
-            paused ? control_.pause() : control_.run();
-        }
-        if (snapshot_) {
-            auto copy = std::make_shared<Snapshot>(*snapshot_);
-            copy->paused = paused;
-            snapshot_ = std::move(copy);
-        }
-        changed_.notify_all();
-    }
-    if (published_) published_();
-}
-
-void LiveRender::set_limits(std::optional<std::uint64_t> passes, std::optional<double> seconds) {
-    const std::lock_guard lock(mutex_);
-    if (!current_) return;
-    current_->stop_passes = passes;
-    current_->stop_seconds = seconds;
-    if (pending_) {
-        pending_->job.stop_passes = passes;
-        pending_->job.stop_seconds = seconds;
-    }
-    changed_.notify_all();
-}
-
-void LiveRender::request_channels(bool wanted) {
-    const std::lock_guard lock(mutex_);
-    if (wanted == channels_wanted_) return;
-    channels_wanted_ = wanted;
-    if (!wanted)
-        channels_.stop();
-    else if (current_)
-        channels_.submit(last_number_, *current_);
-}
-
-std::shared_ptr<const ChannelSnapshot> LiveRender::channels() const { return channels_.snapshot(); }
-
-void LiveRender::clear() {
-    const std::lock_guard lock(mutex_);
-    cleared_ = running_;
-    control_.cancel();
-    channels_.clear();
-    if (pending_) retired_.push_back(std::move(pending_->job.scene));
-    if (current_) retired_.push_back(std::move(current_->scene));
-    pending_.reset();
-    current_.reset();
-    snapshot_.reset();
-    changed_.notify_all();
-}
-
 RenderControl::Clock::duration LiveRender::paused_time(Clock::time_point now) const {
     return paused_for_ + (paused_since_ ? now - *paused_since_ : Clock::duration{0});
-}
-
-LiveLatency LiveRender::latency() const {
-    const std::lock_guard lock(mutex_);
-    return latency_;
 }
 
 void LiveRender::coordinate() {
