@@ -27,6 +27,9 @@ struct LiveRender::Running {
     double shown_seconds = 0;
     Clock::time_point shown;
     double resolving = 0;  // seconds that it took
+    // Of the strategy pyramid: what the renderer observes, and the number of that request.
+    StrategyRequest request;
+    std::uint64_t request_number = 0;
 };
 
 LiveRender::LiveRender(std::function<void()> published)
@@ -116,7 +119,8 @@ bool LiveRender::refine(Running& r) {
         r.renderer = std::make_shared<ProgressiveRenderer>(job.scene, r.view.camera,
                                                            r.view.settings, options);
         r.seconds = r.shown_seconds = 0;
-        r.shown_passes = r.shown_rays = 0;
+        r.shown_passes = r.shown_rays = r.request_number = 0;
+        take_request(r);
         if (!render(r, 1)) return false;
         if (r.scale == 1) return true;
         if (!publish(r, false)) return false;
@@ -138,6 +142,19 @@ int LiveRender::first_scale(const LiveJob& job) {
     return still_does ? last_first_scale_ : fitting;
 }
 
+// Observes what is asked for now; true where that is new.
+bool LiveRender::take_request(Running& r) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (r.request_number == strategies_number_) return false;
+        r.request_number = strategies_number_;
+        r.request = strategies_;
+        control_.begin_batches();
+    }
+    r.renderer->observe(r.request);
+    return true;
+}
+
 bool LiveRender::reached_limits(const Running& r) const {
     if (!current_) return true;
     return (current_->stop_passes && r.renderer->passes() >= *current_->stop_passes) ||
@@ -147,7 +164,10 @@ bool LiveRender::reached_limits(const Running& r) const {
 // Adds passes of full size until the job is replaced; sleeps where it is finished or paused.
 void LiveRender::accumulate(Running& r) {
     bool shown_finished = false;
+    bool soon = false;  // the first pass with what was asked for is shown at once
     for (;;) {
+        const bool asked = take_request(r);
+        soon |= asked;
         bool finished = false, rest = false;
         std::optional<std::uint64_t> stop_passes;
         std::optional<double> stop_seconds;
@@ -159,10 +179,12 @@ void LiveRender::accumulate(Running& r) {
             stop_passes = current_->stop_passes;
             stop_seconds = current_->stop_seconds;
         }
-        const bool news = r.renderer->passes() > r.shown_passes || finished != shown_finished;
+        const bool more = r.renderer->passes() > r.shown_passes;
         const double since = seconds_between(r.shown, Clock::now());
-        if (news &&
-            (rest || r.shown_passes == 0 || since >= interval_after(r.seconds, r.resolving))) {
+        const bool due =
+            rest || soon || r.shown_passes == 0 || since >= interval_after(r.seconds, r.resolving);
+        if (asked || finished != shown_finished || (more && due)) {
+            soon = asked;
             if (!publish(r, finished)) return;
             shown_finished = finished;
             free_retired();
@@ -171,7 +193,7 @@ void LiveRender::accumulate(Running& r) {
             std::unique_lock lock(mutex_);
             changed_.wait(lock, [&] {
                 return superseded() || (!paused_ && !reached_limits(r)) ||
-                       reached_limits(r) != finished;
+                       reached_limits(r) != finished || r.request_number != strategies_number_;
             });
             continue;
         }
@@ -179,6 +201,7 @@ void LiveRender::accumulate(Running& r) {
         const double per_pass = std::max(1e-9, r.seconds / passes);
         double room = std::max(0.0, interval_after(r.seconds, r.resolving) - since) / per_pass;
         if (stop_seconds) room = std::min(room, (*stop_seconds - r.seconds) / per_pass);
+        if (soon) room = 1;
         auto count = static_cast<std::uint64_t>(std::clamp(room, 1.0, passes));
         if (stop_passes) count = std::min(count, *stop_passes - r.renderer->passes());
         if (!render(r, count)) return;
@@ -209,6 +232,8 @@ bool LiveRender::publish(Running& r, bool finished) {
     std::optional<ResolvedImages> resolved =
         resolve_all(renderer, job.settings.exponents.size(), pool_, control_);
     if (!resolved) return false;
+    std::shared_ptr<const StrategySnapshot> strategies =
+        resolve_strategies(renderer, r.request, {r.view.placement, r.scale}, pool_);
     r.resolving = seconds_between(began, Clock::now());
     auto s = std::make_shared<Snapshot>();
     s->job = r.pending.number;
@@ -224,6 +249,7 @@ bool LiveRender::publish(Running& r, bool finished) {
     s->seconds = r.seconds;
     s->cpu_seconds = renderer.cpu_seconds();
     s->statistics = renderer.statistics();
+    s->strategies = std::move(strategies);
     const std::uint64_t rays = s->statistics.rays.closest + s->statistics.rays.shadow;
     const double seconds = r.seconds - r.shown_seconds;
     if (seconds > 0) {

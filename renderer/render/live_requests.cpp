@@ -67,6 +67,15 @@ void LiveRender::set_limits(std::optional<std::uint64_t> passes, std::optional<d
     changed_.notify_all();
 }
 
+void LiveRender::observe_strategies(const StrategyRequest& request) {
+    const std::lock_guard lock(mutex_);
+    if (request == strategies_) return;
+    strategies_ = request;
+    ++strategies_number_;
+    control_.end_batch();
+    changed_.notify_all();
+}
+
 void LiveRender::request_channels(bool wanted) {
     const std::lock_guard lock(mutex_);
     if (wanted == channels_wanted_) return;

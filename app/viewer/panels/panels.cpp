@@ -7,7 +7,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 19> table = {{
+constexpr std::array<Panel, 20> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
@@ -22,6 +22,7 @@ constexpr std::array<Panel, 19> table = {{
     {"files", draw_files},
     {"messages", draw_messages},
     {"status", draw_status},
+    {"pyramid", draw_pyramid},
     {"compare view", draw_compare_view},
     {"overlays", draw_overlays},
     {"gallery", draw_gallery},
