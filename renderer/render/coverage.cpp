@@ -134,11 +134,11 @@ std::string why_left_out(const Strategy& k, const SceneFeatures& f, const Estima
         return "paths end after " + std::to_string(e.max_bounces) +
                (e.max_bounces == 1 ? " bounce" : " bounces");
     const bool lamp_seen = k == Strategy{2, 0} && e.direct_lamps;
-    if (!e.has(k) && !lamp_seen) {
-        if (families_of(settings.technique).has(family)) return "this family was taken out by you";
+    if (!families_of(settings.technique).has(family) && !lamp_seen)
         return settings.technique == Technique::path ? "path tracing has no walks from the lights"
                                                      : "light tracing has no walks from the camera";
-    }
+    if (settings.families && !settings.families->has(family) && !lamp_seen)
+        return "this family was taken out by you";
     if (!settings.only.empty() && std::ranges::find(settings.only, k) == settings.only.end())
         return "only other strategies were asked for";
     if (!f.hittable_lights && !f.delta_lights) return "there is no light";

@@ -33,6 +33,9 @@ Tiles make_tiles(const PixelRect& crop, std::uint64_t passes, int threads) {
     return tiles;
 }
 
+// Where the block that holds v ends; blocks count from `origin`.
+int block_end(int v, int origin, int size) { return origin + ((v - origin) / size + 1) * size; }
+
 double thread_cpu_seconds() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -95,17 +98,29 @@ bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
     LightSubpath scratch;
     scratch.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
     FilmRecord<observed> record(targets_, sums);
-    for (std::uint64_t i = batch.next++; i < batch.items; i = batch.next++) {
-        if (!batch.gate.enter(i / tiles.count(), batch.control)) return true;
-        const std::uint64_t pass = first_pass_ + passes_ + i / tiles.count();
-        const PixelRect tile = tiles.at(i % tiles.count());
-        for (int y = tile.y0; y < tile.y1; ++y)
-            for (int x = tile.x0; x < tile.x1; ++x) {
+    const auto render_block = [&](const PixelRect& r, std::uint64_t pass) {
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) {
                 if (batch.control && !batch.control->go_on()) return false;
                 record.begin(x, y, pass);
                 estimate(estimator_, x, y, pass, scratch, record, sums.rays);
                 record.end();
             }
+        return true;
+    };
+    // Where thumbnails are gathered, the samples of one of their pixels follow each other.
+    const int block = observed && targets_.cells ? targets_.cells->box : tiles.size;
+    for (std::uint64_t i = batch.next++; i < batch.items; i = batch.next++) {
+        if (!batch.gate.enter(i / tiles.count(), batch.control)) return true;
+        const std::uint64_t pass = first_pass_ + passes_ + i / tiles.count();
+        const PixelRect tile = tiles.at(i % tiles.count());
+        for (int y0 = tile.y0, y1 = 0; y0 < tile.y1; y0 = y1) {
+            y1 = std::min(tile.y1, block_end(y0, tiles.crop.y0, block));
+            for (int x0 = tile.x0, x1 = 0; x0 < tile.x1; x0 = x1) {
+                x1 = std::min(tile.x1, block_end(x0, tiles.crop.x0, block));
+                if (!render_block({x0, y0, x1, y1}, pass)) return false;
+            }
+        }
     }
     return true;
 }

@@ -95,7 +95,7 @@ Change draw_header(App& app) {
     change.display |= ui::segmented("bars", bars, bar);
     p.share = static_cast<PyramidShare>(bar);
     ImGui::SameLine(0, em(0.8f));
-    change.display |= ImGui::Checkbox("Bright", &p.own_exposure);
+    change.display |= ImGui::Checkbox("Own exposure", &p.own_exposure);
     ui::tip(
         "Every cell at an exposure of its own, so that dim ones can be seen; else all as the "
         "image, so that they can be compared.");
@@ -147,12 +147,12 @@ void tooltip(const App& app, const Strategy& k, const std::string& left_out) {
         ImGui::TextColored(theme::text_dim, "light %s    noise %s    shadow rays %s",
                            percent(shares.light).c_str(), percent(shares.noise).c_str(),
                            percent(shares.rays).c_str());
-        const double samples = double(s->passes) * app.snapshot->crop.area();
-        ImGui::TextColored(theme::text_dim, "%s",
-                           fmt::format("found light {} times in {} samples "
-                                       "of pixels",
-                                       cell->found.samples, samples)
-                               .c_str());
+        const std::string found = ui::short_number(double(cell->found.samples));
+        const double samples = double(s->passes) * double(app.snapshot->crop.area());
+        const std::string all =
+            ui::short_number(samples / (app.snapshot->scale * app.snapshot->scale));
+        ImGui::TextColored(theme::text_dim, "%s contributions from %s samples of pixels",
+                           found.c_str(), all.c_str());
         ImGui::TextColored(theme::text_dim, "Click: show it large. Ctrl or Shift: add it.");
     }
     ImGui::PopTextWrapPos();
