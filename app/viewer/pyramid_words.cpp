@@ -16,16 +16,16 @@ std::string counted(int n, const char* one, const char* many) {
 }  // namespace
 
 CellShares shares_of(const StrategySnapshot& s, const Strategy& k) {
-    double energy = 0, moment = 0, rays = 0;
+    double energy = 0, variance = 0, rays = 0;
     for (const CellSnapshot& c : s.cells) {
         energy += c.found.energy;
-        moment += c.found.second_moment;
+        variance += c.variance;
         rays += double(c.found.rays);
     }
     const auto share = [](double part, double whole) { return whole > 0 ? part / whole : 0; };
     const CellSnapshot* cell = s.find(k);
     if (!cell) return {};
-    return {share(cell->found.energy, energy), share(cell->found.second_moment, moment),
+    return {share(cell->found.energy, energy), share(cell->variance, variance),
             share(double(cell->found.rays), rays)};
 }
 
@@ -34,6 +34,10 @@ std::string percent(double share) {
     if (!(p > 0)) return "-";
     if (p < 0.1) return "< 0.1 %";
     return fmt::format("{:.{}f} %", p, p < 9.95 ? 1 : 0);
+}
+
+std::string samples_in_words(std::uint64_t n) {
+    return fmt::format("{} {} per pixel", n, n == 1 ? "sample" : "samples");
 }
 
 std::string what_it_does(const Strategy& k) {

@@ -18,6 +18,8 @@ CellShares shares_of(const StrategySnapshot& strategies, const Strategy& strateg
 // "12 %", "3.4 %", "< 0.1 %"; a dash for nothing.
 std::string percent(double share);
 
+std::string samples_in_words(std::uint64_t n);  // "12 samples per pixel"
+
 std::string what_it_does(const Strategy& strategy);
 
 // Teal is the camera's side, amber the light's; a connection lies between them.

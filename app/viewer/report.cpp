@@ -136,7 +136,8 @@ Json pyramid(const App& app) {
                                    {"samples", c.found.samples},
                                    {"rays", c.found.rays},
                                    {"energy", c.found.energy},
-                                   {"second_moment", c.found.second_moment}});
+                                   {"second_moment", c.found.second_moment},
+                                   {"variance", c.variance}});
     j["cells"] = Json::array();
     for (const PyramidPanel::Cell& c : app.ui.panel.pyramid.cells)
         j["cells"].push_back(

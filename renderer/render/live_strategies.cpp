@@ -37,27 +37,33 @@ struct Atlas {
     Image &weighted, &bare;
 };
 
-// Draws thumbnail i into the pictures; black where there is no such cell.
+// Draws thumbnail i into the pictures; black where there is no such cell. Sums by one thread in the
+// order of the pixels, so the variance does not depend on how tiles are shared.
 void draw_tile(const Atlas& a, int i) {
     StrategySnapshot& s = a.snapshot;
     const int left = i % s.columns * s.tile_width, top = i / s.columns * s.tile_height;
     const bool exists = i < static_cast<int>(a.cells.cells.size());
+    double squares = 0;  // of the means, over all pixels
     for (int y = 0; y < s.tile_height; ++y)
         for (int x = 0; x < s.tile_width; ++x) {
             vec3 weighted(0), bare(0);
             if (exists) {
                 const Film& film = a.cells.cells[static_cast<size_t>(i)].thumbnail;
-                const double samples =
-                    double(thumbnail_box(a.cells, x, y).area()) * double(s.passes);
+                const double pixels = double(thumbnail_box(a.cells, x, y).area());
+                const double samples = pixels * double(s.passes);
                 const double unit = std::ldexp(1.0, film.unit_exponent()) / samples;
                 weighted = mean(film.sum(0, x, y), unit);
                 bare = mean(film.sum(1, x, y), unit);
+                squares += pixels * sqr(double(luminance(weighted)));
             }
             a.weighted.at(left + x, top + y) = weighted;
             a.bare.at(left + x, top + y) = bare;
         }
     if (!exists) return;
     CellSnapshot& cell = s.cells[static_cast<size_t>(i)];
+    cell.variance = cell.found.second_moment;
+    if (cell.found.strategy.s >= 2)
+        cell.variance = std::max(0.0, cell.variance - squares / double(a.cells.crop.area()));
     cell.weighted_ev = auto_exposure(thumbnail(s, static_cast<size_t>(i), false));
     cell.bare_ev = auto_exposure(thumbnail(s, static_cast<size_t>(i), true));
 }

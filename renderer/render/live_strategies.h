@@ -8,10 +8,13 @@
 namespace midway {
 
 // A cell of the pyramid. Energy and second moment are means per pixel and pass of the weighted
-// contributions; the second moments of all cells add up to what the image's noise is made of,
-// except for what contributions of one sample have in common.
+// contributions. The variance of a pixel's sample is what of the second moment is not its mean's
+// square (a lamp that is seen has a large second moment and no noise); the mean is taken over a
+// thumbnail's pixel. Splats come by chance in any number: theirs is the second moment itself
+// (Campbell's theorem). What contributions of one sample have in common is left out.
 struct CellSnapshot {
-    StrategyStatistics found;            // strategy longer_paths: the cell that longer paths share
+    StrategyStatistics found;  // strategy longer_paths: the cell that longer paths share
+    double variance = 0;
     float weighted_ev = 0, bare_ev = 0;  // the exposure that suits its thumbnail alone
 };
 

@@ -80,6 +80,30 @@ TEST(LiveStrategies, OpenFromTheStartTheySumToTheImage) {
         }
 }
 
+// A lamp that fills the view is bright in every sample alike.
+TEST(LiveStrategies, NoiseIsNotBrightness) {
+    SceneDescription d;
+    add(d, make_quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}), lamp(vec3(50)));
+    add(d, make_quad({-0.4f, -0.4f, 0.5f}, {0.8f, 0, 0}, {0, 0.8f, 0}), lambert(vec3(0.5f)));
+    d.lights = {point_light({1, 1, 3}, 1)};
+    Watched w;
+    LiveJob j = job(build(d), 40);
+    j.stop_passes = 4;
+    w.live.observe_strategies({.open = true});
+    const auto s = w.wait_finished(w.live.submit(j));
+    ASSERT_TRUE(s && s->strategies);
+    const CellSnapshot& seen = *s->strategies->find({2, 0});
+    EXPECT_GT(seen.found.second_moment, 100);
+    // Only pixels at the edge of what stands before it hold both.
+    EXPECT_LT(seen.variance, 0.02 * seen.found.second_moment);
+    for (const CellSnapshot& c : s->strategies->cells) {
+        EXPECT_LE(c.variance, c.found.second_moment) << describe(c.found.strategy);
+        if (c.found.strategy.s == 1) {
+            EXPECT_EQ(c.variance, c.found.second_moment);
+        }
+    }
+}
+
 TEST(LiveStrategies, OpeningChoosingAndClosingLoseNothing) {
     Watched w;
     LiveJob j = job(build(room()), 48);

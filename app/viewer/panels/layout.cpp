@@ -24,7 +24,7 @@ struct Columns {
 // Beside the image; the right column gives way where that leaves both too little.
 void make_room_for_pyramid(const App& app, const ImVec2& size, Columns& c) {
     if (!app.display.pyramid.open) return;
-    const float least = em(22), pleasant = em(64);
+    const float least = em(22), pleasant = em(80);
     if (size.x - c.left - c.right < pleasant) c.right = 0;
     const float room = size.x - c.left - c.right;
     const float wish = room * app.ui.panel.pyramid.share;

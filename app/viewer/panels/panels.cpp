@@ -7,7 +7,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 20> table = {{
+constexpr std::array<Panel, 21> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
@@ -23,6 +23,7 @@ constexpr std::array<Panel, 20> table = {{
     {"messages", draw_messages},
     {"status", draw_status},
     {"pyramid", draw_pyramid},
+    {"shown strategies", draw_shown_strategies},
     {"compare view", draw_compare_view},
     {"overlays", draw_overlays},
     {"gallery", draw_gallery},

@@ -30,6 +30,7 @@ Change draw_status(App& app);
 Change draw_overlays(App& app);   // loading, notices, default sky, legend
 Change draw_inspector(App& app);  // the dock below, the lines' names, the pixel under the mouse
 Change draw_pyramid(App& app);    // beside it: what each strategy finds
+Change draw_shown_strategies(App& app);
 Change draw_gallery(App& app);
 Change draw_compare_view(App& app);  // line of the wipe, captions, scale of differences
 Change draw_tour(App& app);

@@ -33,8 +33,8 @@ constexpr std::array<ui::Choice, 2> kinds = {{
 constexpr std::array<ui::Choice, 3> bars = {{
     {"Light", "Bars and numbers: the strategy's share of the image's light."},
     {"Noise",
-     "Bars and numbers: its share of the second moment of all weighted contributions, "
-     "which is what the image's noise is made of."},
+     "Bars and numbers: its share of the image's variance, from the second moment of its "
+     "weighted contributions. A strategy with little light and much noise makes fireflies."},
     {"Rays",
      "Bars and numbers: its share of the shadow rays. Emitter hits need none: they come "
      "with the walk."},
@@ -55,15 +55,10 @@ void small_text(vec2 at, const theme::Color& color, const std::string& text) {
 
 float small_width(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x * 0.82f; }
 
-std::string samples_in_words(std::uint64_t n) {
-    return fmt::format("{} {} per pixel", n, n == 1 ? "sample" : "samples");
-}
-
 std::string state_in_words(const App& app) {
     const auto s = app.snapshot ? app.snapshot->strategies : nullptr;
     if (s && s->passes > 0) return "from " + samples_in_words(s->passes);
-    if (app.snapshot && app.snapshot->finished)
-        return "the image is done: let it go on (Limits) or begin again (R) to fill the cells";
+    if (app.snapshot && app.snapshot->finished) return "the image is done: cells need new samples";
     if (app.render.paused) return "paused: fills when the render goes on (Space)";
     return "fills with the next pass";
 }
@@ -100,6 +95,20 @@ Change draw_header(App& app) {
         "Every cell at an exposure of its own, so that dim ones can be seen; else all as the "
         "image, so that they can be compared.");
     return change;
+}
+
+// Where a limit was met before the pyramid was opened, nothing would ever come: the way on.
+Change draw_way_on(App& app) {
+    const auto s = app.snapshot;
+    if (!s || !s->finished || !s->strategies || s->strategies->passes > 0) return {};
+    if (!ui::wide_button("Go on: as many samples again",
+                         "Raises the limits under Run; the image goes on refining, and the cells "
+                         "fill with the new samples."))
+        return {};
+    RenderLimits& limits = app.render.limits;
+    if (limits.spp) limits.spp = std::max(*limits.spp, s->passes) + s->passes;
+    if (limits.seconds) limits.seconds = std::max(*limits.seconds, s->seconds) + s->seconds;
+    return {.settings = true};
 }
 
 // The part of the texture that holds a cell; half a texel inwards, so that no neighbour shows.
@@ -251,7 +260,7 @@ void draw_key(const App& app, vec2 at) {
     }
     const std::string what =
         fmt::format("bars: share of the {}", name_of(app.display.pyramid.share));
-    const float right = app.ui.panel.pyramid.place[2] - em(0.8f);
+    const float right = app.ui.panel.pyramid.place[2] - em(1.1f);
     if (at.x + small_width(what) < right)
         small_text({right - small_width(what), at.y}, theme::text_dim, what);
 }
@@ -285,7 +294,7 @@ Change draw_cells(App& app) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float below = em(2.7f);
     PyramidRoom room;
-    room.rect = {{at.x, at.y + em(0.3f)}, {panel.place[2] - em(0.8f), panel.place[3] - below}};
+    room.rect = {{at.x, at.y + em(0.3f)}, {panel.place[2] - em(1.1f), panel.place[3] - below}};
     room.left = small_width("8 and more") + em(0.7f);
     room.right = small_width("100 %") + em(0.5f);
     room.caption = em(0.12f) + std::max(2.0f, em(0.2f)) + em(0.9f);
@@ -320,41 +329,6 @@ void draw_edge(App& app) {
         panel.share = std::clamp((panel.place[2] - ImGui::GetIO().MousePos.x) / room, 0.25f, 0.85f);
 }
 
-// Over the view: what is shown there, and the way back.
-Change draw_shown(App& app) {
-    if (!shows_strategies(app)) return {};
-    const PyramidChoices& p = app.display.pyramid;
-    const Rect& v = app.ui.view;
-    ImGui::SetNextWindowPos({v.lower.x + em(0.8f), v.upper.y - em(0.8f)}, ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowBgAlpha(0.9f);
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, em(0.3f));
-    ImGui::Begin("##shown strategies", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    ImGui::PopStyleVar();
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::max(em(10), v.size().x - em(3)));
-    const size_t listed = std::min<size_t>(p.selected.size(), 4);
-    for (size_t i = 0; i < listed; ++i) {
-        const std::string sign = i > 0 ? "+ " : "";
-        ImGui::TextUnformatted((sign + strategy_name(p.selected[i])).c_str());
-    }
-    if (p.selected.size() > listed) ImGui::Text("+ %zu more", p.selected.size() - listed);
-    const bool full = strategies_at_full_size(app);
-    std::string how = p.bare ? "bare estimates" : "weighted";
-    how += full ? ", " + samples_in_words(app.snapshot->strategies->selected_passes)
-                : ", enlarged until its first pass is done";
-    ImGui::TextColored(theme::text_dim, "%s", how.c_str());
-    ImGui::PopTextWrapPos();
-    Change change;
-    if (ui::wide_button("Back to the image", "Show the whole image again [Esc]")) {
-        show_whole_image(app);
-        change.display = true;
-    }
-    ImGui::End();
-    return change;
-}
-
 }  // namespace
 
 Change draw_pyramid(App& app) {
@@ -367,10 +341,10 @@ Change draw_pyramid(App& app) {
     ImGui::Begin("##pyramid", nullptr, fixed);
     ImGui::PopStyleColor();
     Change change = draw_header(app);
+    change |= draw_way_on(app);
     change |= draw_cells(app);
     draw_edge(app);
     ImGui::End();
-    change |= draw_shown(app);
     return change;
 }
 
