@@ -41,6 +41,50 @@ TEST(PassGate, EndsBetweenPasses) {
     EXPECT_GT(early, 150);
 }
 
+// Somebody who changes his mind all the time: once ended, a batch stays so for all its workers.
+TEST(PassGate, EndsForAllWorkersOrForNone) {
+    for (int round = 0; round < 50; ++round) {
+        constexpr std::uint64_t passes = 400, tiles = 2;
+        RenderControl control;
+        PassGate gate;
+        std::atomic<std::uint64_t> next{0};
+        std::array<std::atomic<int>, passes> done{};
+        {
+            std::jthread mind([&](const std::stop_token& stop) {
+                while (!stop.stop_requested()) {
+                    control.end_batch();
+                    control.begin_batches();
+                }
+            });
+            std::vector<std::jthread> workers;
+            for (int k = 0; k < 3; ++k)
+                workers.emplace_back([&] {
+                    for (std::uint64_t i = next++; i < passes * tiles; i = next++) {
+                        if (!gate.enter(i / tiles, &control)) return;
+                        ++done[i / tiles];
+                    }
+                });
+        }
+        for (std::uint64_t p = 0; p < passes; ++p)
+            ASSERT_EQ(done[p], p < gate.passes() ? int(tiles) : 0) << "pass " << p;
+    }
+}
+
+TEST(PassGate, ABatchEndsWithThePassUnderWayAndLosesNothing) {
+    const LiveJob j = job(build(room()), 24);
+    ProgressiveRenderer r(j.scene, j.camera, j.settings, {.threads = 2});
+    ProgressiveRenderer plain(j.scene, j.camera, j.settings, {.threads = 1});
+    RenderControl control;
+    control.end_batch();
+    EXPECT_TRUE(r.render_passes(10, {}, &control));
+    EXPECT_EQ(r.passes(), 1u);
+    control.begin_batches();
+    EXPECT_TRUE(r.render_passes(4, {}, &control));
+    EXPECT_EQ(r.passes(), 5u);
+    plain.render_passes(5);
+    EXPECT_EQ(r.film().words(), plain.film().words());
+}
+
 Image sum_of_tiles(const StrategySnapshot& s, bool bare) {
     Image sum(s.tile_width, s.tile_height);
     for (size_t i = 0; i < s.cells.size(); ++i) {
