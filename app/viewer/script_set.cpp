@@ -212,32 +212,13 @@ std::string views_of(const App& app) {
 
 // Strategies that are shown instead of the image: "3,1;1,2", "longer", or "none".
 Change set_strategies(App& app, Text key, Text value) {
-    std::vector<Strategy> chosen;
-    for (size_t start = 0; value != "none" && start < value.size() && chosen.size() < 64;) {
-        const size_t end = std::min(value.find(';', start), value.size());
-        const std::string one = value.substr(start, end - start);
-        Strategy k = longer_paths;
-        if (one != "longer") {
-            const auto n = numbers<2>(key, one);
-            k = {int(std::clamp(n[0], 0.0, 99.0)), int(std::clamp(n[1], 0.0, 99.0))};
-            if (k.s < 1 || k.edges() < 1 || k.edges() > cell_edges)
-                refuse(key, value, fmt::format("give S,T of paths of up to {} edges", cell_edges));
-        }
-        chosen.push_back(k);
-        start = end + 1;
-    }
-    if (!chosen.empty()) open_pyramid(app, true);
+    const auto chosen = parse_strategies(value);
+    if (!chosen)
+        refuse(key, value, "give S,T of paths of up to 8 edges, parted by ;, longer, or none");
+    if (!chosen->empty()) open_pyramid(app, true);
     show_whole_image(app);
-    for (const Strategy& k : chosen) choose_strategy(app, k, true);
+    for (const Strategy& k : *chosen) choose_strategy(app, k, true);
     return display;
-}
-
-std::string strategies_of(const App& app) {
-    std::string text;
-    for (const Strategy& k : app.display.pyramid.selected)
-        text += (text.empty() ? "" : ";") +
-                (k == longer_paths ? std::string("longer") : fmt::format("{},{}", k.s, k.t));
-    return text.empty() ? "none" : text;
 }
 
 // Settings of light transport, as the options of midway render.
@@ -390,7 +371,7 @@ std::map<std::string, std::string> window_values(const App& app) {
             {"pyramid-weights", name_of(d.pyramid.bare, weights)},
             {"pyramid-exposure", name_of(d.pyramid.own_exposure, thumbnail_exposures)},
             {"pyramid-share", name_of(d.pyramid.share, shares)},
-            {"strategies", strategies_of(app)}};
+            {"strategies", strategies_text(d.pyramid.selected)}};
 }
 
 }  // namespace midway

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace midway {
 namespace {
@@ -102,6 +103,31 @@ void show_strategies(const App& app, ShownImage& shown) {
         shown.image = std::make_shared<Image>(1, 1);  // nothing is known yet
     }
     if (s && p.own_exposure) shown.maths.scale = std::exp2(own_exposure(app, *s));
+}
+
+std::optional<std::vector<Strategy>> parse_strategies(const std::string& text) {
+    std::vector<Strategy> list;
+    for (size_t start = 0; text != "none" && start <= text.size() && list.size() < 64;) {
+        const size_t end = std::min(text.find(';', start), text.size());
+        const std::string one = text.substr(start, end - start);
+        Strategy k = longer_paths;
+        int length = 0;
+        if (one != "longer" && (std::sscanf(one.c_str(), "%2d,%2d%n", &k.s, &k.t, &length) != 2 ||
+                                static_cast<size_t>(length) != one.size() || k.s < 1 || k.t < 0 ||
+                                k.edges() < 1 || k.edges() > cell_edges))
+            return {};
+        list.push_back(k);
+        start = end + 1;
+    }
+    return list;
+}
+
+std::string strategies_text(const std::vector<Strategy>& strategies) {
+    std::string text;
+    for (const Strategy& k : strategies)
+        text += (text.empty() ? "" : ";") +
+                (k == longer_paths ? "longer" : std::to_string(k.s) + "," + std::to_string(k.t));
+    return text.empty() ? "none" : text;
 }
 
 std::string strategy_name(const Strategy& k) {

@@ -27,4 +27,9 @@ bool strategies_at_full_size(const App& app);
 // In words: "camera 3 · light 1: next event"; and for the cell that longer paths share.
 std::string strategy_name(const Strategy& strategy);
 
+// For scripts and sessions: "3,1;1,2", "longer" for the shared cell, "none"; empty for anything
+// else.
+std::optional<std::vector<Strategy>> parse_strategies(const std::string& text);
+std::string strategies_text(const std::vector<Strategy>& strategies);
+
 }  // namespace midway

@@ -86,7 +86,7 @@ TEST(PyramidChoice, ClicksChooseAddAndComeBack) {
 
 TEST(PyramidChoice, WordsOfScriptsAreChecked) {
     App app;
-    for (const char* wrong : {"2", "0,3", "1,9", "a,b", "99,99", "1,-5"})
+    for (const char* wrong : {"2", "0,3", "1,9", "2,1;", "", "2.5,1", "a,b", "99,99", "1,-5"})
         EXPECT_THROW(set_value(app, "strategies", wrong), std::invalid_argument) << wrong;
     EXPECT_FALSE(set_value(app, "strategies", "2,1;longer").restarts());
     EXPECT_TRUE(app.display.pyramid.open);
