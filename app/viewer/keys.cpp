@@ -171,7 +171,7 @@ const auto bindings = std::to_array<KeyBinding>({
     {seen, GLFW_KEY_V, 0, "V, Shift+V", "channel: next, previous",
      [](A a) { return next_channel(a, 1); }},
     {seen, GLFW_KEY_V, with_shift, "", "", [](A a) { return next_channel(a, -1); }},
-    {seen, GLFW_KEY_Y, 0, "Y", "strategy pyramid",
+    {seen, GLFW_KEY_P, with_shift, "Shift+P", "strategy pyramid",
      [](A a) { return open_pyramid(a, !a.display.pyramid.open), shown; }},
     {seen, GLFW_KEY_Z, 0, "Z", "zoom: one to one, or fit", toggle_zoom},
     {seen, GLFW_KEY_EQUAL, 0, "+ and -", "zoom in and out", [](A a) { return zoom_by(a, 1.25f); }},

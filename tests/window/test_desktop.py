@@ -112,7 +112,7 @@ class Visit(HandsTest):
         self.open_window(*arguments, "--window", "1280x720")
         self.wait_for_title("idol.glb - Midway")
         self.hand("mousemove", 640, 300)
-        self.press("y")
+        self.press("shift+p")
         self.assertEqual("on", self.window_values()["pyramid"])
         whole = self.picture(1)
 
@@ -147,7 +147,7 @@ class Visit(HandsTest):
         # The render never began anew, and its file is the whole image of all its samples.
         self.press("ctrl+s")
         self.assertTrue(wait_for((self.folder / "idol.exr").exists))
-        self.press("y")
+        self.press("shift+p")
         self.assertEqual("off", self.window_values()["pyramid"])
         self.press("ctrl+q")
         self.assertIsNotNone(wait_for(lambda: self.process.poll() is not None))

@@ -79,7 +79,7 @@ Change draw_header(App& app) {
         open_pyramid(app, false);
         change.display = true;
     }
-    ui::tip("Close the pyramid [Y]. While it is closed it costs nothing.");
+    ui::tip("Close the pyramid [Shift+P]. While it is closed it costs nothing.");
 
     int kind = p.bare, bar = static_cast<int>(p.share);
     ImGui::SetNextItemWidth(std::min(em(11), width * 0.3f));

@@ -127,7 +127,7 @@ Change draw_technique(App& app) {
     if (ui::wide_button(open ? "Close the strategy pyramid" : "Strategy pyramid",
                         "Every way to find light as a picture of its own, while the image goes on "
                         "refining: which strategy finds what, with what share of light, noise and "
-                        "rays. [Y]",
+                        "rays. [Shift+P]",
                         ImGui::GetContentRegionAvail().x)) {
         open_pyramid(app, !open);
         change.display = true;
