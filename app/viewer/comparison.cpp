@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "strategy_view.h"
+
 namespace midway {
 namespace {
 
@@ -57,8 +59,9 @@ std::string a_remark(const App& app) {
 
 CompareView view_in_use(const App& app) {
     const CompareView wanted = app.compare.view;
-    if (wanted == CompareView::live || app.display.channel != Channel::image || !image_a(app) ||
-        !app.compare.live || !app.snapshot || app.snapshot->images.empty())
+    if (wanted == CompareView::live || app.display.channel != Channel::image ||
+        shows_strategies(app) || !image_a(app) || !app.compare.live || !app.snapshot ||
+        app.snapshot->images.empty())
         return CompareView::live;
     if (wanted == CompareView::kept) return wanted;
     return view_refusal(app).empty() ? wanted : CompareView::live;

@@ -32,7 +32,7 @@ Display::Layer::Layer(const Gl& gl)
 
 Display::Display(const Gl& gl)
     : gl_(gl),
-      colour_program_(make_program(gl, "display.vert", "display.frag")),
+      colouring_(gl),
       image_program_(make_program(gl, "image.vert", "image.frag")),
       empty_array_(make_vertex_array(gl)),
       b_(gl),
@@ -87,32 +87,12 @@ void Display::colour(Layer& layer, const ivec2& size, const DisplayMaths& maths)
                                  *layer.colours, 0);
         layer.colours_size = size;
     }
-    const GLuint program = *colour_program_;
-    const auto place = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
     gl_.Disable(GL_SCISSOR_TEST);
     gl_.Disable(GL_BLEND);
     gl_.Viewport(0, 0, size.x, size.y);
-    gl_.UseProgram(program);
-    gl_.ActiveTexture(GL_TEXTURE1);
-    gl_.BindTexture(GL_TEXTURE_2D, *a_.values);
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, *layer.values);
-    gl_.Uniform1i(place("values"), 0);
-    gl_.Uniform1i(place("other"), 1);
-    gl_.Uniform1i(place("mode"), static_cast<int>(maths.mode));
-    gl_.Uniform1i(place("curve"), static_cast<int>(maths.curve));
-    gl_.Uniform1f(place("scale"), maths.scale);
-    gl_.Uniform2f(place("range"), maths.range.x, maths.range.y);
-    gl_.Uniform1f(place("relative_floor"), maths.floor);
-    gl_.Uniform2f(place("other_lies"),
-                  static_cast<float>(shown_.other_place.x0 - shown_.placement.x0),
-                  static_cast<float>(shown_.other_place.y0 - shown_.placement.y0));
-    gl_.Uniform1f(place("pixels"), static_cast<float>(shown_.scale));
-    const std::span<const vec3> ramp = stop_ramp(), two_sided = signed_ramp();
-    gl_.Uniform3fv(place("ramp"), static_cast<GLsizei>(ramp.size()), &ramp[0].x);
-    gl_.Uniform3fv(place("signed_ramp"), static_cast<GLsizei>(two_sided.size()), &two_sided[0].x);
-    gl_.BindVertexArray(*empty_array_);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    const vec2 lies(shown_.other_place.x0 - shown_.placement.x0,
+                    shown_.other_place.y0 - shown_.placement.y0);
+    colouring_.draw(*layer.values, maths, {*a_.values, lies, static_cast<float>(shown_.scale)});
 }
 
 void Display::draw(const App& app, const Target& target, const vec3& background) const {

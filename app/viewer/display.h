@@ -4,8 +4,7 @@
 // framebuffer pixels.
 #pragma once
 
-#include "display_maths.h"
-#include "gl.h"
+#include "colouring.h"
 
 namespace midway {
 
@@ -41,7 +40,8 @@ class Display {
 
     const Gl& gl_;
     ShownImage shown_;
-    GlHandle colour_program_, image_program_, empty_array_;
+    Colouring colouring_;
+    GlHandle image_program_, empty_array_;
     Layer b_, a_;
 };
 

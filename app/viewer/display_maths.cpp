@@ -1,6 +1,7 @@
 #include "display_maths.h"
 
 #include "comparison.h"
+#include "strategy_view.h"
 
 namespace midway {
 namespace {
@@ -145,6 +146,7 @@ ShownImage shown_image(const App& app) {
                 shown.maths.range = {d.stop_low, d.stop_high};
             }
             show_comparison(app, shown);
+            show_strategies(app, shown);
             break;
         case Channel::error:
             show_error(s, exponent, shown);

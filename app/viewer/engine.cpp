@@ -11,6 +11,7 @@
 #include "render/coverage.h"
 #include "render/film_file.h"
 #include "script_set.h"
+#include "strategy_view.h"
 
 namespace midway {
 namespace {
@@ -160,6 +161,7 @@ News collect(App& app, Engine& engine) {
         app.display.channel == Channel::albedo || app.display.channel == Channel::normal ||
         app.display.channel == Channel::depth || app.display.channel == Channel::object;
     engine.live.request_channels(channel);
+    engine.live.observe_strategies(strategy_request(app));
     return news;
 }
 

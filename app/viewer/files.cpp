@@ -15,6 +15,7 @@
 #include "render/film_file.h"
 #include "render/image_metadata.h"
 #include "script_set.h"
+#include "strategy_view.h"
 
 namespace midway {
 namespace {
@@ -48,10 +49,13 @@ void save_exr(App& app, Engine& engine, const std::string& path) {
     const Snapshot& s = *app.snapshot;
     Metadata metadata = image_metadata(*job.prepared, settings, s.passes, s.statistics.clamped);
     set_exponent(metadata, settings.exponents.front());
-    engine.tasks.submit([path, metadata = std::move(metadata),
+    // A file that says how it was made holds what midway render makes.
+    const std::string whole =
+        shows_strategies(app) ? ": the whole image (a .png holds the strategies as seen)" : "";
+    engine.tasks.submit([path, whole, metadata = std::move(metadata),
                          image = s.images[std::min(shown_exponent(app), s.images.size() - 1)]] {
         write_exr(path, {{"", *image}}, metadata);
-        return "saved " + path;
+        return "saved " + path + whole;
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include "viewer/edits.h"
 #include "viewer/panels/parts.h"
+#include "viewer/strategy_view.h"
 #include "viewer/view.h"
 
 namespace midway {
@@ -63,8 +64,14 @@ Change put_away(App& app) {
         app.ui.gallery = false;
     } else if (app.ui.tour_step >= 0) {
         app.ui.tour_step = -1;
-    } else {
+    } else if (app.ui.panel.navigation.tool != ViewTool::orbit) {
         app.ui.panel.navigation.tool = ViewTool::orbit;
+    } else if (!app.display.pyramid.selected.empty()) {
+        show_whole_image(app);
+        return shown;
+    } else if (app.display.pyramid.open) {
+        open_pyramid(app, false);
+        return shown;
     }
     return {};
 }
@@ -165,6 +172,8 @@ const auto bindings = std::to_array<KeyBinding>({
     {seen, GLFW_KEY_V, 0, "V, Shift+V", "channel: next, previous",
      [](A a) { return next_channel(a, 1); }},
     {seen, GLFW_KEY_V, with_shift, "", "", [](A a) { return next_channel(a, -1); }},
+    {seen, GLFW_KEY_P, with_shift, "Shift+P", "strategy pyramid",
+     [](A a) { return open_pyramid(a, !a.display.pyramid.open), shown; }},
     {seen, GLFW_KEY_Z, 0, "Z", "zoom: one to one, or fit", toggle_zoom},
     {seen, GLFW_KEY_EQUAL, 0, "+ and -", "zoom in and out", [](A a) { return zoom_by(a, 1.25f); }},
     {seen, GLFW_KEY_EQUAL, with_shift, "", "", [](A a) { return zoom_by(a, 1.25f); }},

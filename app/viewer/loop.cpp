@@ -192,6 +192,7 @@ void frame(Loop& l, Change change) {
     if (change.any()) l.frames_due = std::max(l.frames_due, 2);
 
     update_image(l);
+    l.pyramid.update(l.app);
     ImGui::Render();
     const bool last = last_frame(l);
     draw(l, last ? l.options.screenshot : step.screenshot);
@@ -211,7 +212,8 @@ Loop make_loop(App& app, Engine& engine, const Host& host) {
             .host = host,
             .display = Display(*host.gl),
             .lines = LinePainter(*host.gl),
-            .painter = PanelPainter(*host.gl)};
+            .painter = PanelPainter(*host.gl),
+            .pyramid = PyramidAtlas(*host.gl)};
 }
 
 void run(Loop& l) {

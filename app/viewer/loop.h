@@ -9,6 +9,7 @@
 #include "gl_lines.h"
 #include "gl_panels.h"
 #include "host.h"
+#include "pyramid_atlas.h"
 #include "remember.h"
 #include "report.h"
 #include "script.h"
@@ -32,6 +33,7 @@ struct Loop {
     Display display;
     LinePainter lines;
     PanelPainter painter;
+    PyramidAtlas pyramid;
     ShownImage shown;
 
     // What `shown` was made from.

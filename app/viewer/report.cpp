@@ -6,6 +6,7 @@
 #include "comparison.h"
 #include "edits.h"
 #include "image/file.h"
+#include "strategy_view.h"
 
 namespace midway {
 namespace {
@@ -120,6 +121,31 @@ Json curves_json(const Comparison& c) {
     return list;
 }
 
+// The strategy pyramid: what is chosen, and where a hand finds each cell.
+Json pyramid(const App& app) {
+    const PyramidChoices& p = app.display.pyramid;
+    Json j{{"open", p.open}, {"bare", p.bare}, {"selected", Json::array()}};
+    for (const Strategy& k : p.selected) j["selected"].push_back({k.s, k.t});
+    const auto strategies = app.snapshot ? app.snapshot->strategies : nullptr;
+    j["passes"] = strategies ? strategies->passes : 0;
+    j["full_size"] = strategies_at_full_size(app);
+    j["shares"] = Json::array();
+    if (strategies)
+        for (const CellSnapshot& c : strategies->cells)
+            j["shares"].push_back({{"s", c.found.strategy.s},
+                                   {"t", c.found.strategy.t},
+                                   {"samples", c.found.samples},
+                                   {"rays", c.found.rays},
+                                   {"energy", c.found.energy},
+                                   {"second_moment", c.found.second_moment},
+                                   {"variance", c.variance}});
+    j["cells"] = Json::array();
+    for (const PyramidPanel::Cell& c : app.ui.panel.pyramid.cells)
+        j["cells"].push_back(
+            {{"s", c.s}, {"t", c.t}, {"x", c.x}, {"y", c.y}, {"left_out", c.left_out}});
+    return j;
+}
+
 }  // namespace
 
 Mark mark_now(App& app) {
@@ -160,6 +186,7 @@ void write_report(const std::string& path, const App& app, const Mark& mark) {
     const Selection& selection = app.ui.panel.selection;
     if (selection.material >= 0)
         j["selected"] = {{"object", selection.object}, {"material", selection.material_name}};
+    j["pyramid"] = pyramid(app);
     if (app.snapshot) {
         const Snapshot& s = *app.snapshot;
         j["job"] = s.job;

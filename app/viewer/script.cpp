@@ -16,6 +16,7 @@
 #include "script_input.h"
 #include "script_inspect.h"
 #include "script_set.h"
+#include "strategy_view.h"
 
 namespace midway {
 namespace {
@@ -74,6 +75,13 @@ bool loaded(const App& app, const Engine& engine) {
     return app.document.loading.empty() && !engine.loader.status().busy && !engine.updater.busy();
 }
 
+bool strategies_shown(const App& app, double passes) {
+    const auto& s = app.snapshot->strategies;
+    const PyramidChoices& p = app.display.pyramid;
+    return s && app.snapshot->scale == 1 && double(s->passes) >= passes &&
+           s->selected == p.selected && (p.selected.empty() || strategies_at_full_size(app));
+}
+
 // Whether what a line waits for has come.
 bool has_come(const ScriptPlayer& p, const std::vector<std::string>& w, const App& app,
               const Engine& engine) {
@@ -96,6 +104,7 @@ bool has_come(const ScriptPlayer& p, const std::vector<std::string>& w, const Ap
     if (what == "spp")
         return newest_shown(app, engine) && app.snapshot->scale == 1 &&
                double(app.snapshot->passes) >= argument();
+    if (what == "strategies") return newest_shown(app, engine) && strategies_shown(app, argument());
     if (what == "idle")
         return !engine.tasks.busy() &&
                (engine.jobs.empty() ||

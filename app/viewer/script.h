@@ -7,6 +7,7 @@
 //   scroll X Y STEPS     drop FILE                         resize WIDTHxHEIGHT
 //   wait loaded | image | spp N | idle | saved | reload | seconds X
 //        | frames N | inspected | measured | file F (until there is such a file)
+//        | strategies N (passes in the pyramid; those chosen at full size)
 //   inspect X,Y[,SAMPLE|,brightest] | brightest | nonfinite | path N | off
 //   screenshot F.png     save F.exr|F.png                  save-session F.midway
 //   edit light|material NAME|INDEX KEY VALUE           edit sky KEY VALUE (edits.h)

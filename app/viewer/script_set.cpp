@@ -7,6 +7,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "strategy_view.h"
+
 namespace midway {
 namespace {
 
@@ -77,6 +79,10 @@ constexpr std::pair<const char*, ErrorMetric> metrics[] = {{"relmse", ErrorMetri
                                                            {"trimmed", ErrorMetric::trimmed},
                                                            {"bias", ErrorMetric::bias},
                                                            {"estimate", ErrorMetric::estimate}};
+constexpr std::pair<const char*, bool> weights[] = {{"weighted", false}, {"bare", true}};
+constexpr std::pair<const char*, bool> thumbnail_exposures[] = {{"image", false}, {"own", true}};
+constexpr std::pair<const char*, PyramidShare> shares[] = {
+    {"light", PyramidShare::light}, {"noise", PyramidShare::noise}, {"rays", PyramidShare::rays}};
 
 template <class T, size_t N>
 std::string name_of(T value, const std::pair<const char*, T> (&words)[N]) {
@@ -204,6 +210,17 @@ std::string views_of(const App& app) {
     return text;
 }
 
+// Strategies that are shown instead of the image: "3,1;1,2", "longer", or "none".
+Change set_strategies(App& app, Text key, Text value) {
+    const auto chosen = parse_strategies(value);
+    if (!chosen)
+        refuse(key, value, "give S,T of paths of up to 8 edges, parted by ;, longer, or none");
+    if (!chosen->empty()) open_pyramid(app, true);
+    show_whole_image(app);
+    for (const Strategy& k : *chosen) choose_strategy(app, k, true);
+    return display;
+}
+
 // Settings of light transport, as the options of midway render.
 constexpr Key render_keys[] = {
     {"technique", set_technique},
@@ -304,6 +321,16 @@ constexpr Key display_keys[] = {
      [](App& a, Text k, Text v) { return a.compare.metric = word(k, v, metrics), display; }},
     {"section", open_section},
     {"views", set_views},
+    {"pyramid", [](App& a, Text k, Text v) { return open_pyramid(a, on_off(k, v)), display; }},
+    {"pyramid-weights",
+     [](App& a, Text k, Text v) { return a.display.pyramid.bare = word(k, v, weights), display; }},
+    {"pyramid-exposure",
+     [](App& a, Text k, Text v) {
+         return a.display.pyramid.own_exposure = word(k, v, thumbnail_exposures), display;
+     }},
+    {"pyramid-share",
+     [](App& a, Text k, Text v) { return a.display.pyramid.share = word(k, v, shares), display; }},
+    {"strategies", set_strategies},
     {"panels", [](App& a, Text k, Text v) { return a.ui.panels = on_off(k, v), display; }},
     {"keys", [](App& a, Text k, Text v) { return a.ui.keys = on_off(k, v), display; }},
     {"gallery", [](App& a, Text k, Text v) { return a.ui.gallery = on_off(k, v), display; }},
@@ -339,7 +366,12 @@ std::map<std::string, std::string> window_values(const App& app) {
             {"false-colour", d.false_colour ? "on" : "off"},
             {"stops", fmt::format("{},{}", d.stop_low, d.stop_high)},
             {"channel", name_of(d.channel, channels)},
-            {"views", views_of(app)}};
+            {"views", views_of(app)},
+            {"pyramid", d.pyramid.open ? "on" : "off"},
+            {"pyramid-weights", name_of(d.pyramid.bare, weights)},
+            {"pyramid-exposure", name_of(d.pyramid.own_exposure, thumbnail_exposures)},
+            {"pyramid-share", name_of(d.pyramid.share, shares)},
+            {"strategies", strategies_text(d.pyramid.selected)}};
 }
 
 }  // namespace midway

@@ -14,6 +14,7 @@
 #include "render/session.h"
 #include "viewer/camera_control.h"
 #include "viewer/compare_state.h"
+#include "viewer/pyramid_choices.h"
 #include "viewer/ui_state.h"
 #include "viewer/undo.h"
 
@@ -90,6 +91,7 @@ struct DisplayChoices {
     float zoom = 0;            // screen pixels per image pixel; 0: as large as fits
     vec2 pan{0};               // where the image's centre is, from the view's centre, points
     bool pixel_values = true;  // written into the pixels where they are large enough
+    PyramidChoices pyramid;
     bool operator==(const DisplayChoices&) const = default;
 };
 

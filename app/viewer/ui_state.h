@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@
 
 namespace midway {
 
-struct Snapshot;  // render/live_render.h
+struct Snapshot;          // render/live_render.h
+struct StrategySnapshot;  // render/live_strategies.h
 
 // How the window is arranged; worth keeping from one visit to the next.
 struct Arrangement {
@@ -107,6 +109,26 @@ struct Marks {
     std::vector<MarkedObject> objects;
 };
 
+// The strategy pyramid beside the image.
+struct PyramidPanel {
+    float share = 0.57f;           // of the width that the columns leave
+    std::array<float, 4> place{};  // left, top, right and bottom
+    // The thumbnails in one texture of OpenGL (0: none yet), and what they were made from.
+    std::uint32_t picture = 0;
+    std::shared_ptr<const StrategySnapshot> drawn;
+    // Why a strategy takes no part, by strategy_index; empty where it does. Found once for a job.
+    std::vector<std::string> left_out;
+    std::uint64_t left_out_job = 0;
+    const void* left_out_scene = nullptr;
+    // Cells as drawn last, for the report.
+    struct Cell {
+        int s = 0, t = 0;
+        float x = 0, y = 0;  // its middle
+        bool left_out = false;
+    };
+    std::vector<Cell> cells;
+};
+
 struct PanelState {
     Arrangement arrangement;
     Navigation navigation;
@@ -115,6 +137,7 @@ struct PanelState {
     MaterialUse use;
     Marks marks;
     StatusCache status;
+    PyramidPanel pyramid;
     std::vector<Message> messages;                           // the newest last
     std::string last_notice, last_error, last_render_error;  // already in `messages`
     double last_notice_until = 0;

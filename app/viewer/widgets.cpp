@@ -1,5 +1,7 @@
 #include "viewer/widgets.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cfloat>
@@ -310,6 +312,13 @@ void begin_sheet(const char* name, bool& open) {
 }
 
 void end_sheet() { ImGui::End(); }
+
+std::string short_number(double n) {
+    if (n < 1000) return fmt::format("{:.0f}", n);
+    if (n < 1e6) return fmt::format("{:.1f} k", n / 1e3);
+    if (n < 1e9) return fmt::format("{:.2f} M", n / 1e6);
+    return fmt::format("{:.2f} G", n / 1e9);
+}
 
 std::string fitted(const std::string& text, float width) {
     const auto width_of = [](const std::string& s) { return ImGui::CalcTextSize(s.c_str()).x; };

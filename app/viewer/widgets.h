@@ -67,6 +67,9 @@ bool wide_button(const char* label, const char* tooltip, float width = 0);
 void begin_sheet(const char* name, bool& open);
 void end_sheet();
 
+// "950", "1.2 k", "3.40 M".
+std::string short_number(double n);
+
 // Text that fits the width, its middle left out where it must.
 std::string fitted(const std::string& text, float width);
 

@@ -12,6 +12,7 @@
 //   bool wants(const Strategy&)              false: the strategy's rays need not be traced
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "integrator/walk.h"
@@ -28,12 +29,13 @@ struct Contribution {
 
 struct RayCounts {
     std::uint64_t closest = 0, shadow = 0, camera_paths = 0, light_paths = 0;
-    // Shadow rays by strategy, where somebody asks (indexed by strategy_index).
+    // Shadow rays by strategy, where somebody asks (indexed by strategy_index; what has no place
+    // of its own shares the last one).
     std::vector<std::uint64_t>* by_strategy = nullptr;
 
     void count_shadow(const Strategy& k) {
         ++shadow;
-        if (by_strategy) ++(*by_strategy)[strategy_index(k)];
+        if (by_strategy) ++(*by_strategy)[std::min(strategy_index(k), by_strategy->size() - 1)];
     }
 };
 

@@ -1,5 +1,6 @@
 #include "render/coverage.h"
 
+#include <algorithm>
 #include <set>
 
 #include "shading/microfacet.h"
@@ -127,6 +128,30 @@ std::vector<std::string> not_covered(const SceneFeatures& f, const Families& fam
         for (const Pattern& p : shortest) result.push_back(in_words(p, hittable, f));
     }
     return result;
+}
+
+std::string why_left_out(const Strategy& k, const SceneFeatures& f, const Estimator& e,
+                         const RenderSettings& settings) {
+    const Family family = family_of(k);
+    if (k == Strategy{1, 1})
+        return "what the camera sees directly is found by hitting the lamp (camera 2, light 0)";
+    if (k.edges() > e.max_bounces + 1)
+        return "paths end after " + std::to_string(e.max_bounces) +
+               (e.max_bounces == 1 ? " bounce" : " bounces");
+    const bool lamp_seen = k == Strategy{2, 0} && e.direct_lamps;
+    if (!families_of(settings.technique).has(family) && !lamp_seen)
+        return settings.technique == Technique::path ? "path tracing has no walks from the lights"
+                                                     : "light tracing has no walks from the camera";
+    if (settings.families && !settings.families->has(family) && !lamp_seen)
+        return "this family was taken out by you";
+    if (!settings.only.empty() && std::ranges::find(settings.only, k) == settings.only.end())
+        return "only other strategies were asked for";
+    if (!f.hittable_lights && !f.delta_lights) return "there is no light";
+    if (family == Family::emitter_hit)
+        return f.hittable_lights ? ""
+                                 : "only lamps without size (" + f.delta_light_names +
+                                       "): nothing that a ray could hit";
+    return f.rough ? "" : "all surfaces are mirrors, clear glass or black: nothing to connect";
 }
 
 }  // namespace midway

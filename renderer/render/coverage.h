@@ -32,4 +32,9 @@ std::vector<FamilyNeed> family_needs(const SceneFeatures& features);
 std::vector<std::string> not_covered(const SceneFeatures& features, const Families& families,
                                      bool direct_lamps);
 
+// Why a strategy takes no part in images with these settings, in words that fit after "left out:";
+// empty where it does. `e` binds the settings to the scene (make_estimator).
+std::string why_left_out(const Strategy& k, const SceneFeatures& features, const Estimator& e,
+                         const RenderSettings& settings);
+
 }  // namespace midway

@@ -1,5 +1,6 @@
-// Where an estimator's contributions go: the films, and (where somebody looks) strategy layers and
-// statistics. One per worker; it also counts what must not pass in silence.
+// Where an estimator's contributions go: the films, and (where somebody looks) strategy layers, the
+// cells of the strategy pyramid, and statistics. One per worker; it also counts what must not pass
+// in silence. Whoever looks leaves the films and their counts as they are.
 #pragma once
 
 #include <algorithm>
@@ -7,13 +8,14 @@
 #include <vector>
 
 #include "render/recording.h"
+#include "render/strategy_cells.h"
 
 namespace midway {
 
 // Sums of one strategy over all samples, of luminance; exact, so independent of the threads.
 struct StrategySums {
     std::uint64_t samples = 0;  // contributions above zero
-    Int128 energy = 0;          // weighted by the first exponent
+    Int128 energy = 0;          // weighted
     Int128 second_moment = 0;   // of the weighted contributions, in units of the film's squared
 };
 
@@ -47,7 +49,9 @@ struct NonFinite {
 struct FilmTargets {
     std::vector<Film>* films = nullptr;                             // one per exponent
     std::vector<std::unique_ptr<StrategyFilms>>* layers = nullptr;  // by strategy_index, or null
+    StrategyCells* cells = nullptr;                                 // of the pyramid, or null
     bool statistics = false;
+    size_t observed_exponent = 0;  // whose weights layers, cells and statistics show
     PixelRect crop;
     Recording recording;
 };
@@ -58,7 +62,8 @@ struct WorkerSums {
     FixedCounts fixed;
     NonFinite nonfinite;
     std::uint64_t clamped = 0;
-    std::vector<StrategySums> strategies;
+    std::uint64_t cells_lost = 0;          // did not fit into a cell of the pyramid
+    std::vector<StrategySums> strategies;  // by strategy_index; the last is for all others
     std::vector<std::uint64_t> strategy_rays;
 };
 
@@ -68,7 +73,11 @@ class FilmRecord {
     FilmRecord(const FilmTargets& targets, WorkerSums& sums) : targets_(targets), sums_(sums) {}
     FilmRecord(const FilmRecord&) = delete;
     FilmRecord& operator=(const FilmRecord&) = delete;
-    ~FilmRecord() { add_waiting(); }
+    ~FilmRecord() {
+        add_waiting();
+        if constexpr (observed)
+            if (targets_.cells) buffer_.flush(*targets_.cells, sums_.cells_lost);
+    }
 
     void begin(int x, int y, std::uint64_t pass) {
         x_ = x;
@@ -78,6 +87,8 @@ class FilmRecord {
             pixel_[i] = {};
             prefetch((*targets_.films)[i], x, y);
         }
+        if constexpr (observed)
+            if (targets_.cells) buffer_.move_to(*targets_.cells, x, y, sums_.cells_lost);
     }
 
     bool wants(const Strategy& k) const { return targets_.recording.wants(k); }
@@ -85,19 +96,25 @@ class FilmRecord {
     void contribution(const Contribution& c) {
         if (!usable(c)) return;
         for (size_t i = 0; i < targets_.films->size(); ++i) {
-            const FixedRgb v = fixed(weighted(c, i));
+            const vec3 w = weighted(c, i);
+            const FixedRgb v = fixed(w);
             for (int k = 0; k < 3; ++k)
                 if (__builtin_add_overflow(pixel_[i][k], v[k], &pixel_[i][k]))
                     ++sums_.fixed.overflow;
+            if constexpr (observed)
+                if (i == targets_.observed_exponent) observe(c, {w, v, x_, y_, true});
         }
-        if constexpr (observed) observe(c, x_, y_);
     }
 
     void splat(int x, int y, const Contribution& c) {
         if (!usable(c)) return;
-        for (size_t i = 0; i < targets_.films->size(); ++i)
-            wait((*targets_.films)[i], x, y, fixed(weighted(c, i)));
-        if constexpr (observed) observe(c, x, y);
+        for (size_t i = 0; i < targets_.films->size(); ++i) {
+            const vec3 w = weighted(c, i);
+            const FixedRgb v = fixed(w);
+            wait((*targets_.films)[i], x, y, v);
+            if constexpr (observed)
+                if (i == targets_.observed_exponent) observe(c, {w, v, x, y, false});
+        }
     }
 
     // Adds the sample's sum to its pixel.
@@ -107,9 +124,10 @@ class FilmRecord {
     }
 
   private:
-    // A splat on its way to the film.
+    // A splat on its way to a film, at a pixel of the film.
     struct Waiting {
         Film* film = nullptr;
+        std::uint64_t* lost = nullptr;
         int half = 0, x = 0, y = 0;
         FixedRgb value;
     };
@@ -120,21 +138,24 @@ class FilmRecord {
 
     // Splats land anywhere in the film. They wait until the memory they go to has arrived.
     void wait(Film& film, int x, int y, const FixedRgb& value) {
-        prefetch(film, x, y);
-        waiting_[waiting_count_++] = {&film, half(), x, y, value};
+        wait({&film, &sums_.fixed.overflow, half(), x - targets_.crop.x0, y - targets_.crop.y0,
+              value});
+    }
+    void wait(const Waiting& w) {
+        w.film->prefetch(w.half, w.x, w.y);
+        waiting_[waiting_count_++] = w;
         if (waiting_count_ == waiting_.size()) add_waiting();
     }
     void add_waiting() {
         for (size_t i = 0; i < waiting_count_; ++i) {
             const Waiting& w = waiting_[i];
-            add(*w.film, w.half, w.x, w.y, w.value);
+            if (!w.film->add(w.half, w.x, w.y, w.value)) ++*w.lost;
         }
         waiting_count_ = 0;
     }
 
-    void add(Film& film, int x, int y, const FixedRgb& value) { add(film, half(), x, y, value); }
-    void add(Film& film, int half, int x, int y, const FixedRgb& value) {
-        if (!film.add(half, x - targets_.crop.x0, y - targets_.crop.y0, value))
+    void add(Film& film, int x, int y, const FixedRgb& value) {
+        if (!film.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, value))
             ++sums_.fixed.overflow;
     }
 
@@ -152,27 +173,55 @@ class FilmRecord {
         return v.value;
     }
 
-    FixedRgb fixed(const vec3& v) {
-        return to_fixed_rgb(v, targets_.films->front().unit_exponent(), sums_.fixed);
-    }
+    int unit() const { return targets_.films->front().unit_exponent(); }
 
-    void observe(const Contribution& c, int x, int y) {
+    FixedRgb fixed(const vec3& v) { return to_fixed_rgb(v, unit(), sums_.fixed); }
+
+    // What the film got, and where.
+    struct Added {
+        const vec3& weighted;
+        const FixedRgb& value;  // the same
+        int x, y;
+        bool own;  // the sample's own pixel
+    };
+
+    void observe(const Contribution& c, const Added& a) {
         const size_t k = strategy_index(c.strategy);
-        const vec3 w = weighted(c, 0);
+        FixedCounts ignored;
         if (targets_.statistics) {
-            const int unit = targets_.films->front().unit_exponent();
-            const float l = luminance(w);
-            StrategySums& s = sums_.strategies[k];
+            const float l = luminance(a.weighted);
+            StrategySums& s = sums_.strategies[std::min(k, sums_.strategies.size() - 1)];
             ++s.samples;
-            s.energy += to_fixed(l, unit, sums_.fixed);
+            s.energy += to_fixed(l, unit(), ignored);
             // The square of a film's value has its own unit, again 2^-90 of the power's square.
-            FixedCounts ignored;
-            s.second_moment += to_fixed(l * l, 2 * unit + 90, ignored);
+            s.second_moment += to_fixed(l * l, 2 * unit() + 90, ignored);
         }
+        if (targets_.cells) observe_cell(c, a);
         if (!targets_.layers || k >= targets_.layers->size() || !(*targets_.layers)[k]) return;
         StrategyFilms& films = *(*targets_.layers)[k];
-        add(films.weighted, x, y, fixed(w));
-        add(films.bare, x, y, fixed(c.value));
+        add(films.weighted, a.x, a.y, a.value);
+        add(films.bare, a.x, a.y, fixed(c.value));
+    }
+
+    void observe_cell(const Contribution& c, const Added& a) {
+        StrategyCells& cells = *targets_.cells;
+        const int index = cells.index_of(c.strategy);
+        if (index < 0) return;
+        StrategyCell& cell = cells.cells[static_cast<size_t>(index)];
+        FixedCounts counts;
+        const FixedRgb bare = to_fixed_rgb(c.value, unit(), counts);
+        sums_.cells_lost += counts.overflow;
+        const int px = a.x - cells.crop.x0, py = a.y - cells.crop.y0;
+        if (a.own) {
+            buffer_.add(index, a.value, bare, sums_.cells_lost);
+        } else {
+            const int bx = px / cells.box, by = py / cells.box;
+            wait({&cell.thumbnail, &sums_.cells_lost, 0, bx, by, a.value});
+            wait({&cell.thumbnail, &sums_.cells_lost, 1, bx, by, bare});
+        }
+        if (!cell.full) return;
+        wait({cell.full.get(), &sums_.cells_lost, 0, px, py, a.value});
+        wait({cell.full.get(), &sums_.cells_lost, 1, px, py, bare});
     }
 
     const FilmTargets& targets_;
@@ -180,8 +229,10 @@ class FilmRecord {
     int x_ = 0, y_ = 0;
     std::uint64_t pass_ = 0;
     std::array<FixedRgb, max_exponents> pixel_{};
-    std::array<Waiting, 16> waiting_;
+    std::array<Waiting, observed ? 48 : 16> waiting_;
     size_t waiting_count_ = 0;
+    struct Nothing {};
+    [[no_unique_address]] std::conditional_t<observed, CellBuffer, Nothing> buffer_;
 };
 
 }  // namespace midway

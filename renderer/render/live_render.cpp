@@ -4,24 +4,13 @@
 #include <exception>
 #include <utility>
 
+#include "render/live_pace.h"
+
 namespace midway {
 namespace {
 
-constexpr double first_image_budget = 0.02;  // seconds
-constexpr auto protected_age = std::chrono::milliseconds(50);
-// Snapshots come at least and at most so far apart, in between after a share of the time so far.
-// Resolving large images takes time from rendering: after the first second, at most this share.
-constexpr double shortest_interval = 1.0 / 60, longest_interval = 2, interval_share = 0.05;
-constexpr double first_second = 1, resolving_share = 0.03;
-
 double seconds_between(RenderControl::Clock::time_point a, RenderControl::Clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
-}
-
-double interval_after(double elapsed, double resolving) {
-    double interval = interval_share * elapsed;
-    if (elapsed > first_second) interval = std::max(interval, resolving / resolving_share);
-    return std::clamp(interval, shortest_interval, longest_interval);
 }
 
 }  // namespace
@@ -38,6 +27,9 @@ struct LiveRender::Running {
     double shown_seconds = 0;
     Clock::time_point shown;
     double resolving = 0;  // seconds that it took
+    // Of the strategy pyramid: what the renderer observes, and the number of that request.
+    StrategyRequest request;
+    std::uint64_t request_number = 0;
 };
 
 LiveRender::LiveRender(std::function<void()> published)
@@ -52,98 +44,8 @@ LiveRender::~LiveRender() {
     changed_.notify_all();
 }
 
-std::uint64_t LiveRender::submit(LiveJob job) {
-    const std::lock_guard lock(mutex_);
-    const auto now = Clock::now();
-    const bool stopping = !running_ || superseded();
-    if (!stopping && !first_out_ && now < started_ + protected_age) {
-        control_.cancel_at(started_ + protected_age);
-    } else if (!stopping || first_out_) {
-        if (running_ && !stop_asked_) stop_asked_ = now;
-        control_.cancel();
-    }
-    const std::uint64_t number = ++last_number_;
-    // The last holder of a scene pays for freeing it: not this thread.
-    if (pending_) retired_.push_back(std::move(pending_->job.scene));
-    if (current_) retired_.push_back(std::move(current_->scene));
-    current_ = job;
-    if (channels_wanted_) channels_.submit(number, job);
-    pending_ = Pending{number, std::move(job), now};
-    changed_.notify_all();
-    return number;
-}
-
-std::shared_ptr<const Snapshot> LiveRender::snapshot() const {
-    const std::lock_guard lock(mutex_);
-    return snapshot_;
-}
-
-void LiveRender::pause(bool paused) {
-    {
-        const std::lock_guard lock(mutex_);
-        if (paused == paused_) return;
-        paused_ = paused;
-        // What is being stopped must not be woken to go on.
-        if (running_ && !superseded()) {
-            paused_for_ = paused_time(Clock::now());
-            paused_since_.reset();
-            if (paused) paused_since_ = Clock::now();
-            paused ? control_.pause() : control_.run();
-        }
-        if (snapshot_) {
-            auto copy = std::make_shared<Snapshot>(*snapshot_);
-            copy->paused = paused;
-            snapshot_ = std::move(copy);
-        }
-        changed_.notify_all();
-    }
-    if (published_) published_();
-}
-
-void LiveRender::set_limits(std::optional<std::uint64_t> passes, std::optional<double> seconds) {
-    const std::lock_guard lock(mutex_);
-    if (!current_) return;
-    current_->stop_passes = passes;
-    current_->stop_seconds = seconds;
-    if (pending_) {
-        pending_->job.stop_passes = passes;
-        pending_->job.stop_seconds = seconds;
-    }
-    changed_.notify_all();
-}
-
-void LiveRender::request_channels(bool wanted) {
-    const std::lock_guard lock(mutex_);
-    if (wanted == channels_wanted_) return;
-    channels_wanted_ = wanted;
-    if (!wanted)
-        channels_.stop();
-    else if (current_)
-        channels_.submit(last_number_, *current_);
-}
-
-std::shared_ptr<const ChannelSnapshot> LiveRender::channels() const { return channels_.snapshot(); }
-
-void LiveRender::clear() {
-    const std::lock_guard lock(mutex_);
-    cleared_ = running_;
-    control_.cancel();
-    channels_.clear();
-    if (pending_) retired_.push_back(std::move(pending_->job.scene));
-    if (current_) retired_.push_back(std::move(current_->scene));
-    pending_.reset();
-    current_.reset();
-    snapshot_.reset();
-    changed_.notify_all();
-}
-
 RenderControl::Clock::duration LiveRender::paused_time(Clock::time_point now) const {
     return paused_for_ + (paused_since_ ? now - *paused_since_ : Clock::duration{0});
-}
-
-LiveLatency LiveRender::latency() const {
-    const std::lock_guard lock(mutex_);
-    return latency_;
 }
 
 void LiveRender::coordinate() {
@@ -217,7 +119,8 @@ bool LiveRender::refine(Running& r) {
         r.renderer = std::make_shared<ProgressiveRenderer>(job.scene, r.view.camera,
                                                            r.view.settings, options);
         r.seconds = r.shown_seconds = 0;
-        r.shown_passes = r.shown_rays = 0;
+        r.shown_passes = r.shown_rays = r.request_number = 0;
+        take_request(r);
         if (!render(r, 1)) return false;
         if (r.scale == 1) return true;
         if (!publish(r, false)) return false;
@@ -239,6 +142,19 @@ int LiveRender::first_scale(const LiveJob& job) {
     return still_does ? last_first_scale_ : fitting;
 }
 
+// Observes what is asked for now; true where that is new.
+bool LiveRender::take_request(Running& r) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (r.request_number == strategies_number_) return false;
+        r.request_number = strategies_number_;
+        r.request = strategies_;
+        control_.begin_batches();
+    }
+    r.renderer->observe(r.request);
+    return true;
+}
+
 bool LiveRender::reached_limits(const Running& r) const {
     if (!current_) return true;
     return (current_->stop_passes && r.renderer->passes() >= *current_->stop_passes) ||
@@ -248,7 +164,10 @@ bool LiveRender::reached_limits(const Running& r) const {
 // Adds passes of full size until the job is replaced; sleeps where it is finished or paused.
 void LiveRender::accumulate(Running& r) {
     bool shown_finished = false;
+    bool soon = false;  // the first pass with what was asked for is shown at once
     for (;;) {
+        const bool asked = take_request(r);
+        soon |= asked;
         bool finished = false, rest = false;
         std::optional<std::uint64_t> stop_passes;
         std::optional<double> stop_seconds;
@@ -260,10 +179,12 @@ void LiveRender::accumulate(Running& r) {
             stop_passes = current_->stop_passes;
             stop_seconds = current_->stop_seconds;
         }
-        const bool news = r.renderer->passes() > r.shown_passes || finished != shown_finished;
+        const bool more = r.renderer->passes() > r.shown_passes;
         const double since = seconds_between(r.shown, Clock::now());
-        if (news &&
-            (rest || r.shown_passes == 0 || since >= interval_after(r.seconds, r.resolving))) {
+        const bool due =
+            rest || soon || r.shown_passes == 0 || since >= interval_after(r.seconds, r.resolving);
+        if (asked || finished != shown_finished || (more && due)) {
+            soon = asked;
             if (!publish(r, finished)) return;
             shown_finished = finished;
             free_retired();
@@ -272,7 +193,7 @@ void LiveRender::accumulate(Running& r) {
             std::unique_lock lock(mutex_);
             changed_.wait(lock, [&] {
                 return superseded() || (!paused_ && !reached_limits(r)) ||
-                       reached_limits(r) != finished;
+                       reached_limits(r) != finished || r.request_number != strategies_number_;
             });
             continue;
         }
@@ -280,6 +201,7 @@ void LiveRender::accumulate(Running& r) {
         const double per_pass = std::max(1e-9, r.seconds / passes);
         double room = std::max(0.0, interval_after(r.seconds, r.resolving) - since) / per_pass;
         if (stop_seconds) room = std::min(room, (*stop_seconds - r.seconds) / per_pass);
+        if (soon) room = 1;
         auto count = static_cast<std::uint64_t>(std::clamp(room, 1.0, passes));
         if (stop_passes) count = std::min(count, *stop_passes - r.renderer->passes());
         if (!render(r, count)) return;
@@ -310,6 +232,8 @@ bool LiveRender::publish(Running& r, bool finished) {
     std::optional<ResolvedImages> resolved =
         resolve_all(renderer, job.settings.exponents.size(), pool_, control_);
     if (!resolved) return false;
+    std::shared_ptr<const StrategySnapshot> strategies =
+        resolve_strategies(renderer, r.request, {r.view.placement, r.scale}, pool_);
     r.resolving = seconds_between(began, Clock::now());
     auto s = std::make_shared<Snapshot>();
     s->job = r.pending.number;
@@ -325,6 +249,7 @@ bool LiveRender::publish(Running& r, bool finished) {
     s->seconds = r.seconds;
     s->cpu_seconds = renderer.cpu_seconds();
     s->statistics = renderer.statistics();
+    s->strategies = std::move(strategies);
     const std::uint64_t rays = s->statistics.rays.closest + s->statistics.rays.shadow;
     const double seconds = r.seconds - r.shown_seconds;
     if (seconds > 0) {

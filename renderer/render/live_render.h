@@ -17,6 +17,7 @@
 
 #include "render/live_channels.h"
 #include "render/live_images.h"
+#include "render/live_strategies.h"
 #include "render/render_control.h"
 #include "render/renderer.h"
 
@@ -36,7 +37,8 @@ struct Snapshot {
     std::uint64_t passes = 0;             // in these images
     double seconds = 0, cpu_seconds = 0;  // rendering this job, pauses and coarse images excluded
     RenderStatistics statistics;          // of these images
-    double samples_per_second = 0;        // pixel samples, since the snapshot before
+    std::shared_ptr<const StrategySnapshot> strategies;  // null while nobody looks at them
+    double samples_per_second = 0;                       // pixel samples, since the snapshot before
     double rays_per_second = 0;
     bool finished = false;  // a limit of the job is reached
     bool paused = false;
@@ -74,6 +76,10 @@ class LiveRender {
     // Goes on with a finished job until these limits (absent: none); its samples are kept.
     void set_limits(std::optional<std::uint64_t> passes, std::optional<double> seconds);
 
+    // What is gathered of each strategy beside the image, of the current job and of later ones:
+    // from the next pass on, without a new start.
+    void observe_strategies(const StrategyRequest& request);
+
     // Albedo, normal, depth and object of the current job and of later ones, while wanted.
     void request_channels(bool wanted);
     std::shared_ptr<const ChannelSnapshot> channels() const;
@@ -97,6 +103,7 @@ class LiveRender {
     bool refine(Running& r);
     void accumulate(Running& r);
     bool render(Running& r, std::uint64_t passes);
+    bool take_request(Running& r);
     bool publish(Running& r, bool finished);
     void fail(Running& r, const std::string& error);
     void show(Running& r, std::shared_ptr<const Snapshot> snapshot);
@@ -127,6 +134,8 @@ class LiveRender {
     std::optional<Clock::time_point> stop_asked_, paused_since_;
     Clock::duration paused_for_{0};
     std::uint64_t last_number_ = 0;
+    StrategyRequest strategies_;
+    std::uint64_t strategies_number_ = 0;  // of changes
     std::optional<Pending> pending_;
     std::optional<LiveJob> current_;                    // the newest job, with the newest limits
     std::vector<std::shared_ptr<const void>> retired_;  // to be freed where nobody waits

@@ -22,6 +22,12 @@ class RenderControl {
         change(State::ending);
     }
 
+    // A batch of passes shall end with the pass that is under way: somebody has news for the
+    // renderer. Stays so until begin_batches().
+    void end_batch() { batch_ends_.store(true, std::memory_order_relaxed); }
+    void begin_batches() { batch_ends_.store(false, std::memory_order_relaxed); }
+    bool batch_ends() const { return batch_ends_.load(std::memory_order_relaxed); }
+
     // Like go_on(), but never sleeps.
     bool cancelled() const {
         const State state = state_.load(std::memory_order_acquire);
@@ -56,6 +62,7 @@ class RenderControl {
     }
 
     std::atomic<State> state_{State::running};
+    std::atomic<bool> batch_ends_{false};
     std::atomic<Clock::rep> deadline_{0};
 };
 

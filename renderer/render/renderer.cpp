@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "math/float_mode.h"
+#include "render/pass_gate.h"
 #include "render/worker_priority.h"
 
 namespace midway {
@@ -31,6 +32,9 @@ Tiles make_tiles(const PixelRect& crop, std::uint64_t passes, int threads) {
     while (tiles.size > 4 && tiles.count() * passes < 16 * std::uint64_t(threads)) tiles.size /= 2;
     return tiles;
 }
+
+// Where the block that holds v ends; blocks count from `origin`.
+int block_end(int v, int origin, int size) { return origin + ((v - origin) / size + 1) * size; }
 
 double thread_cpu_seconds() {
     timespec t{};
@@ -75,32 +79,48 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
     targets_.statistics = options.statistics;
     targets_.crop = estimator_.crop;
     targets_.recording = make_recording(settings);
-    const size_t strategies = strategy_count(settings.max_bounces + 1) + 1;
-    if (options.statistics) {
-        totals_.strategies.resize(strategies);
-        totals_.strategy_rays.resize(strategies);
-    }
+    if (options.statistics) begin_statistics(true, strategy_count(settings.max_bounces + 1) + 1);
 }
 
+// What the workers of one call of render_passes() share.
+struct ProgressiveRenderer::Batch {
+    Tiles tiles;
+    std::uint64_t items = 0;
+    const RenderControl* control = nullptr;
+    std::atomic<std::uint64_t> next{0};
+    PassGate gate;
+};
+
 template <bool observed>
-bool ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t count,
-                               const RenderControl* control, WorkerSums& sums) const {
+bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
     const ScopedFlushToZero flush;
-    const Tiles tiles = make_tiles(estimator_.crop, count, threads_);
-    const std::uint64_t items = count * tiles.count();
+    const Tiles& tiles = batch.tiles;
     LightSubpath scratch;
     scratch.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
     FilmRecord<observed> record(targets_, sums);
-    for (std::uint64_t i = next++; i < items; i = next++) {
-        const std::uint64_t pass = first_pass_ + passes_ + i / tiles.count();
-        const PixelRect tile = tiles.at(i % tiles.count());
-        for (int y = tile.y0; y < tile.y1; ++y)
-            for (int x = tile.x0; x < tile.x1; ++x) {
-                if (control && !control->go_on()) return false;
+    const auto render_block = [&](const PixelRect& r, std::uint64_t pass) {
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) {
+                if (batch.control && !batch.control->go_on()) return false;
                 record.begin(x, y, pass);
                 estimate(estimator_, x, y, pass, scratch, record, sums.rays);
                 record.end();
             }
+        return true;
+    };
+    // Where thumbnails are gathered, the samples of one of their pixels follow each other.
+    const int block = observed && targets_.cells ? targets_.cells->box : tiles.size;
+    for (std::uint64_t i = batch.next++; i < batch.items; i = batch.next++) {
+        if (!batch.gate.enter(i / tiles.count(), batch.control)) return true;
+        const std::uint64_t pass = first_pass_ + passes_ + i / tiles.count();
+        const PixelRect tile = tiles.at(i % tiles.count());
+        for (int y0 = tile.y0, y1 = 0; y0 < tile.y1; y0 = y1) {
+            y1 = std::min(tile.y1, block_end(y0, tiles.crop.y0, block));
+            for (int x0 = tile.x0, x1 = 0; x0 < tile.x1; x0 = x1) {
+                x1 = std::min(tile.x1, block_end(x0, tiles.crop.x0, block));
+                if (!render_block({x0, y0, x1, y1}, pass)) return false;
+            }
+        }
     }
     return true;
 }
@@ -108,9 +128,9 @@ bool ProgressiveRenderer::work(std::atomic<std::uint64_t>& next, std::uint64_t c
 bool ProgressiveRenderer::render_passes(std::uint64_t count,
                                         const std::function<void(double)>& tick,
                                         const RenderControl* control) {
-    const std::uint64_t items = count * make_tiles(estimator_.crop, count, threads_).count();
-    const bool observed = targets_.layers || targets_.statistics;
-    std::atomic<std::uint64_t> next{0};
+    Batch batch{.tiles = make_tiles(estimator_.crop, count, threads_), .control = control};
+    batch.items = count * batch.tiles.count();
+    const bool observed = targets_.layers || targets_.statistics || targets_.cells;
     std::vector<WorkerSums> sums(threads_);
     std::mutex mutex;
     std::condition_variable finished;
@@ -124,8 +144,7 @@ bool ProgressiveRenderer::render_passes(std::uint64_t count,
             if (targets_.statistics) s.rays.by_strategy = &s.strategy_rays;
             workers.emplace_back([&] {
                 if (background_) lower_priority();
-                const bool done = observed ? work<true>(next, count, control, s)
-                                           : work<false>(next, count, control, s);
+                const bool done = observed ? work<true>(batch, s) : work<false>(batch, s);
                 const std::lock_guard lock(mutex);
                 whole &= done;
                 cpu_seconds_ += thread_cpu_seconds();
@@ -138,11 +157,40 @@ bool ProgressiveRenderer::render_passes(std::uint64_t count,
         // Without a tick nothing wakes before the end, so that a paused render costs nothing.
         if (!tick) finished.wait(lock, all_done);
         while (!finished.wait_for(lock, std::chrono::milliseconds(100), all_done))
-            tick(std::min(1.0, double(next) / double(items)));
+            tick(std::min(1.0, double(batch.next) / double(batch.items)));
     }
     for (const WorkerSums& s : sums) merge(s);
-    if (whole) passes_ += count;
+    if (whole) passes_ += batch.gate.passes();
     return whole;
+}
+
+void ProgressiveRenderer::begin_statistics(bool on, size_t strategies) {
+    targets_.statistics = on;
+    totals_.strategies.assign(on ? strategies : 0, {});
+    totals_.strategy_rays.assign(on ? strategies : 0, 0);
+    statistics_since_ = passes_;
+}
+
+void ProgressiveRenderer::observe(const StrategyRequest& request) {
+    if (!request.open) {
+        if (cells_) begin_statistics(false, 0);
+        cells_.reset();
+        targets_.cells = nullptr;
+        targets_.observed_exponent = 0;
+        return;
+    }
+    size_t exponent = 0;
+    for (size_t i = 0; i < films_.size(); ++i)
+        if (estimator_.exponents[i] == request.exponent) exponent = i;
+    if (!cells_ || cells_->exponent != exponent) {
+        cells_ = std::make_unique<StrategyCells>(
+            make_cells(estimator_, films_.front().unit_exponent(), exponent, passes_));
+        targets_.cells = cells_.get();
+        targets_.observed_exponent = exponent;
+        totals_.cells_lost = 0;
+        begin_statistics(true, statistics_slots);
+    }
+    keep_full_size(*cells_, request, passes_);
 }
 
 void ProgressiveRenderer::adopt(std::vector<Film> films, std::uint64_t passes) {
@@ -159,6 +207,7 @@ void ProgressiveRenderer::merge(const WorkerSums& s) {
     totals_.fixed.overflow += s.fixed.overflow;
     totals_.nonfinite.merge(s.nonfinite);
     totals_.clamped += s.clamped;
+    totals_.cells_lost += s.cells_lost;
     for (size_t i = 0; i < s.strategies.size(); ++i) {
         totals_.strategies[i].samples += s.strategies[i].samples;
         totals_.strategies[i].energy += s.strategies[i].energy;
@@ -184,24 +233,39 @@ std::vector<ProgressiveRenderer::Layer> ProgressiveRenderer::layers() const {
     return result;
 }
 
+StrategyStatistics ProgressiveRenderer::statistics_of(const Strategy& k, size_t slot) const {
+    const int unit = films_.front().unit_exponent();
+    const double n =
+        std::max(1.0, double(passes_ - statistics_since_) * double(estimator_.crop.area()));
+    const StrategySums& sums = totals_.strategies[slot];
+    return {k, sums.samples, totals_.strategy_rays[slot], from_fixed(sums.energy, unit) / n,
+            from_fixed(sums.second_moment, 2 * unit + 90) / n};
+}
+
 RenderStatistics ProgressiveRenderer::statistics() const {
     RenderStatistics r;
     r.rays = totals_.rays;
     r.fixed = totals_.fixed;
     r.nonfinite = totals_.nonfinite;
     r.clamped = totals_.clamped;
-    const int unit = films_.front().unit_exponent();
-    const double n = std::max(1.0, double(passes_) * double(estimator_.crop.area()));
     for (int edges = 1; strategy_count(edges) < totals_.strategies.size(); ++edges)
         for (int s = edges + 1; s >= 1; --s) {
             const Strategy k{s, edges + 1 - s};
-            const StrategySums& sums = totals_.strategies[strategy_index(k)];
-            const std::uint64_t rays = totals_.strategy_rays[strategy_index(k)];
-            if (sums.samples == 0 && rays == 0) continue;
-            r.strategies.push_back({k, sums.samples, rays, from_fixed(sums.energy, unit) / n,
-                                    from_fixed(sums.second_moment, 2 * unit + 90) / n});
+            const StrategyStatistics found = statistics_of(k, strategy_index(k));
+            if (found.samples > 0 || found.rays > 0) r.strategies.push_back(found);
         }
     return r;
+}
+
+std::vector<StrategyStatistics> ProgressiveRenderer::cell_statistics() const {
+    std::vector<StrategyStatistics> result;
+    if (!cells_) return result;
+    for (const StrategyCell& cell : cells_->cells) {
+        const bool own = !(cell.strategy == longer_paths);
+        const size_t last = totals_.strategies.size() - 1;
+        result.push_back(statistics_of(cell.strategy, own ? strategy_index(cell.strategy) : last));
+    }
+    return result;
 }
 
 }  // namespace midway

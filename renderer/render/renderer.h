@@ -15,7 +15,7 @@ namespace midway {
 struct RendererOptions {
     int threads = 0;               // 0: all processors
     int layer_edges = 0;           // > 0: strategy layers for paths of up to so many edges
-    bool statistics = false;       // per strategy
+    bool statistics = false;       // per strategy, unless observe() decides
     std::uint64_t first_pass = 0;  // of a shard: the samples before belong to others
     bool background = false;       // workers leave the processor to others who want it
 };
@@ -40,12 +40,21 @@ class ProgressiveRenderer {
     ProgressiveRenderer(std::shared_ptr<const Scene> scene, const CameraDescription& camera,
                         const RenderSettings& settings, const RendererOptions& options);
 
-    // Renders the next `count` passes and returns when all are in the film. `tick` is called about
-    // ten times a second by the calling thread with the share that is done. False where `control`
-    // ended them early: the film then holds parts of passes, and only statistics() and
-    // cpu_seconds() mean something.
+    // Renders the next `count` passes and returns when all are in the film; fewer, but one at
+    // least, where `control` ends the batch. `tick` is called about ten times a second by the
+    // calling thread with the share that is done. False where `control` cancelled them: the film
+    // then holds parts of passes, and only statistics() and cpu_seconds() mean something.
     bool render_passes(std::uint64_t count, const std::function<void(double)>& tick = {},
                        const RenderControl* control = nullptr);
+
+    // Begins, changes or ends what is gathered for the strategy pyramid, from the next pass on;
+    // the image does not change by it. Statistics per strategy begin anew whenever its cells do,
+    // and end with them.
+    void observe(const StrategyRequest& request);
+    const StrategyCells* cells() const { return cells_.get(); }  // null: not observed
+    // In the order of the cells; means per pixel and pass since they were begun.
+    std::vector<StrategyStatistics> cell_statistics() const;
+    std::uint64_t cells_lost() const { return totals_.cells_lost; }
 
     // Goes on from films of this very render (same scene and settings) that hold `passes` passes.
     void adopt(std::vector<Film> films, std::uint64_t passes);
@@ -68,16 +77,19 @@ class ProgressiveRenderer {
     PassCounts counts() const { return pass_counts(first_pass_, first_pass_ + passes_); }
 
   private:
+    struct Batch;
     template <bool observed>
-    bool work(std::atomic<std::uint64_t>& next, std::uint64_t items, const RenderControl* control,
-              WorkerSums& sums) const;
+    bool work(Batch& batch, WorkerSums& sums) const;
     void merge(const WorkerSums& sums);
+    void begin_statistics(bool on, size_t strategies);
+    StrategyStatistics statistics_of(const Strategy& k, size_t slot) const;
 
     std::shared_ptr<const Scene> scene_;
     Estimator estimator_;
     int threads_ = 1;
-    std::uint64_t first_pass_ = 0, passes_ = 0;
+    std::uint64_t first_pass_ = 0, passes_ = 0, statistics_since_ = 0;
     std::vector<Film> films_;
+    std::unique_ptr<StrategyCells> cells_;
     std::vector<std::unique_ptr<StrategyFilms>> layers_;
     FilmTargets targets_;
     WorkerSums totals_;

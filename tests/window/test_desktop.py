@@ -1,7 +1,9 @@
 """A person's visit: the window on a display in memory, with real mouse and key events."""
 
+import json
 import time
 import unittest
+from pathlib import Path
 
 import tiny_scene
 from exr_file import ExrFile
@@ -77,6 +79,79 @@ class Visit(HandsTest):
         memory = (self.folder / "config" / "midway" / "imgui.ini").read_text()
         self.assertIn(f"Recent={other}\nRecent={self.scene}", memory)
         self.assertIn("Size=1280,720", memory)
+
+    def pyramid_cells(self, *arguments):
+        """Where the cells of the pyramid lie in a window of 1280 x 720, by strategy."""
+        self.play("wait loaded\nset pyramid on\nwait strategies 1\nwait frames 3\nreport cells.json",
+                  *arguments, size="1280x720")
+        pyramid = self.report("cells.json")["pyramid"]
+        self.assertEqual(45, len(pyramid["cells"]))
+        return {(c["s"], c["t"]): c for c in pyramid["cells"]}
+
+    def window_values(self):
+        """What a session saved now says of the window."""
+        self.sessions = getattr(self, "sessions", 0) + 1
+        path = self.folder / ("idol.midway" if self.sessions == 1 else f"idol-{self.sessions}.midway")
+        self.press("ctrl+shift+s")
+        self.assertTrue(wait_for(path.exists), f"{path.name} was not saved")
+        return json.loads(path.read_text())["window"]
+
+    def picture(self, number):
+        """A PNG of what is seen."""
+        path = self.folder / ("idol.png" if number == 1 else f"idol-{number}.png")
+        self.press("ctrl+p")
+        self.assertTrue(wait_for(path.exists), f"{path.name} was not saved")
+        return read_png(path)
+
+    def test_pyramid_choose_add_bare_and_back(self):
+        idol = Path(__file__).resolve().parents[2] / "assets" / "idol.glb"
+        arguments = [idol, "--size", "64x48", "--spp", 24]
+        cells = self.pyramid_cells(*arguments)
+        self.assertTrue(cells[1, 1]["left_out"])
+        self.assertFalse(cells[2, 1]["left_out"])
+        self.open_window(*arguments, "--window", "1280x720")
+        self.wait_for_title("idol.glb - Midway")
+        self.hand("mousemove", 640, 300)
+        self.press("shift+p")
+        self.assertEqual("on", self.window_values()["pyramid"])
+        whole = self.picture(1)
+
+        def click(cell, *held):
+            at = cells[cell]["x"], cells[cell]["y"]
+            self.hand("mousemove", *at)
+            time.sleep(0.3)
+            for key in held:
+                self.hand("keydown", key)
+            self.hand("click", 1)
+            time.sleep(0.3)
+            for key in held:
+                self.hand("keyup", key)
+
+        click((2, 1))
+        self.look("8-strategy")
+        self.assertEqual("2,1", self.window_values()["strategies"])
+        one = self.picture(2)
+        click((1, 1))
+        self.assertEqual("2,1", self.window_values()["strategies"], "what is left out has no picture")
+        click((1, 4), "ctrl")
+        self.assertEqual("2,1;1,4", self.window_values()["strategies"])
+        self.look("9-sum")
+        self.hand("mousemove", 845, 41, "click", 1)
+        values = self.window_values()
+        self.assertEqual(("bare", "2,1;1,4"), (values["pyramid-weights"], values["strategies"]))
+        self.look("10-bare")
+        bare = self.picture(3)
+        self.assertEqual(3, len({tuple(map(bytes, p[2])) for p in (whole, one, bare)}))
+        self.press("Escape")
+        self.assertEqual("none", self.window_values()["strategies"])
+        # The render never began anew, and its file is the whole image of all its samples.
+        self.press("ctrl+s")
+        self.assertTrue(wait_for((self.folder / "idol.exr").exists))
+        self.press("shift+p")
+        self.assertEqual("off", self.window_values()["pyramid"])
+        self.press("ctrl+q")
+        self.assertIsNotNone(wait_for(lambda: self.process.poll() is not None))
+        self.assertEqual(0, self.process.returncode, self.process.stderr.read())
 
     def test_first_visit_opens_the_idol_and_offers_the_tour(self):
         self.open_window("--window", "900x600", "--size", "64x64", "--spp", 1)

@@ -262,6 +262,66 @@ class Behaviour(WindowTest):
         self.assertLess(self.report("r1.json")["job"], self.report("r2.json")["job"])
 
 
+class Pyramid(WindowTest):
+    START = "open {}\nset size 48x36\nset spp 8\nset panels off\n"
+
+    def test_strategies_show_and_the_file_stays_the_image(self):
+        """Opening and choosing never restart the render; PNG as seen, EXR as midway render."""
+        self.play("set pyramid on\n" + self.START.format(self.scene) + "wait idle\nreport a.json\n"
+                  "save whole.png\nwait saved\nset strategies 2,1\nwait seconds 0.3\n"
+                  "save one.png\nsave one.exr\nwait saved\nset strategies 2,1;3,1;longer\n"
+                  "set pyramid-weights bare\nwait seconds 0.3\nsave bare.png\nwait saved\n"
+                  "report b.json\nset strategies none\nset pyramid off\nwait frames 3\n"
+                  "copy line.txt\nsave again.png\nwait saved\nreport c.json", size="1280x720")
+        a, b, c = (self.report(f"{name}.json") for name in "abc")
+        self.assertEqual((a["job"], a["spp"]), (c["job"], c["spp"]))
+        self.assertEqual(8, a["pyramid"]["passes"])
+        self.assertEqual([[2, 1], [3, 1], [0, 0]], b["pyramid"]["selected"])
+        self.assertFalse(c["pyramid"]["open"])
+        self.assertEqual(0, c["pyramid"]["passes"], "nothing is kept while it is closed")
+        whole, one, bare, again = (read_png(self.folder / f"{name}.png")[2]
+                                   for name in ("whole", "one", "bare", "again"))
+        self.assertEqual(whole, again)
+        self.assertTrue(whole != one != bare != whole)
+        batch = self.run_command_line(self.folder / "line.txt")
+        self.assertEqual(batch.read_bytes(), (self.folder / "one.exr").read_bytes())
+
+    def test_chosen_cells_are_at_full_size_from_then_on(self):
+        self.play(self.START.format(self.scene) + "wait idle\nset pyramid on\nset strategies 2,1\n"
+                  "wait seconds 0.5\nreport a.json\nset spp 12\nwait strategies 4\nwait idle\n"
+                  "report b.json\nscreenshot pyramid.png", size="1280x720")
+        self.keep("pyramid.png")
+        a, b = self.report("a.json"), self.report("b.json")
+        self.assertEqual((0, False), (a["pyramid"]["passes"], a["pyramid"]["full_size"]))
+        self.assertEqual((4, True), (b["pyramid"]["passes"], b["pyramid"]["full_size"]))
+        self.assertEqual(12, b["spp"])
+        self.assertEqual(a["job"], b["job"])
+
+    def test_a_session_brings_the_pyramid_back(self):
+        self.play(self.START.format(self.scene) + "set strategies 1,2;longer\n"
+                  "set pyramid-weights bare\nset pyramid-exposure own\nset pyramid-share noise\n"
+                  "wait idle\nsave-session s.midway\nwait saved\nset pyramid off\n"
+                  "set pyramid-weights weighted\nopen s.midway\nwait idle\n"
+                  "save-session t.midway\nwait saved\nreport r.json")
+        self.assertEqual((self.folder / "s.midway").read_text(),
+                         (self.folder / "t.midway").read_text())
+        pyramid = self.report("r.json")["pyramid"]
+        self.assertEqual((True, True), (pyramid["open"], pyramid["bare"]))
+        self.assertEqual([[1, 2], [0, 0]], pyramid["selected"])
+
+    def test_osmesa_draws_the_same_pyramid(self):
+        done = self.play("wait frames 3", "--gl", "osmesa", self.scene, status=None)
+        if "libOSMesa" in done.stderr:
+            self.skipTest("libOSMesa is missing")
+        script = "set pyramid on\nset pyramid-exposure own\n" + self.START.format(self.scene) + \
+            "wait idle\nwait frames 5\nscreenshot {}"
+        self.play(script.format("egl.png"), size="900x600")
+        self.play(script.format("osmesa.png"), "--gl", "osmesa", size="900x600")
+        egl, osmesa = (part(read_png(self.folder / n), 0, 0, 900, 600)
+                       for n in ("egl.png", "osmesa.png"))
+        self.assertLessEqual(max(abs(a - b) for p, q in zip(egl, osmesa) for a, b in zip(p, q)), 1)
+
+
 class Refusals(WindowTest):
     def refused(self, done):
         self.assertRegex(done.stderr.strip(), ERROR_LINE)

@@ -18,10 +18,25 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 struct Columns {
     float left = 0, right = 0, bottom = 0;  // sizes in points
     float dock = 0;                         // above the status line, as wide as the window
+    float pyramid = 0;                      // between the image and the right one
 };
 
+// Beside the image; the right column gives way where that leaves both too little.
+void make_room_for_pyramid(const App& app, const ImVec2& size, Columns& c) {
+    if (!app.display.pyramid.open) return;
+    const float least = em(22), pleasant = em(80);
+    if (size.x - c.left - c.right < pleasant) c.right = 0;
+    const float room = size.x - c.left - c.right;
+    const float wish = room * app.ui.panel.pyramid.share;
+    c.pyramid = std::round(std::clamp(wish, std::min(least, room), std::max(room - em(10), least)));
+}
+
 Columns columns_of(const App& app, const ImVec2& size) {
-    if (!app.ui.panels) return {};
+    if (!app.ui.panels) {
+        Columns c;
+        make_room_for_pyramid(app, size, c);
+        return c;
+    }
     const Arrangement& a = app.ui.panel.arrangement;
     const float width = std::round(em(19));
     Columns c;
@@ -32,6 +47,7 @@ Columns columns_of(const App& app, const ImVec2& size) {
     c.right = a.right ? width : 0;
     // Where both would leave the image too little, everything moves to the left one.
     if (c.left > 0 && size.x - c.left - c.right < em(14)) c.right = 0;
+    make_room_for_pyramid(app, size, c);
     return c;
 }
 
@@ -75,8 +91,9 @@ Change draw_layout(App& app) {
     Arrangement& a = app.ui.panel.arrangement;
     a.right_fits = c.right > 0;
     const float height = size.y - c.bottom - c.dock;
-    app.ui.view = {{c.left, 0}, {size.x - c.right, height}};
+    app.ui.view = {{c.left, 0}, {size.x - c.right - c.pyramid, height}};
     app.ui.panel.dock = {0, height, size.x, height + c.dock};
+    app.ui.panel.pyramid.place = {size.x - c.right - c.pyramid, 0, size.x - c.right, height};
     if (app.ui.panels) {
         if (c.left > 0) column("##left", 0, c.left, height);
         if (c.right > 0) column("##right", size.x - c.right, c.right, height);

@@ -7,7 +7,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<Panel, 22> table = {{
+constexpr std::array<Panel, 24> table = {{
     {"layout", draw_layout},
     {"navigation", draw_navigation},
     {"technique", draw_technique},
@@ -24,6 +24,8 @@ constexpr std::array<Panel, 22> table = {{
     {"files", draw_files},
     {"messages", draw_messages},
     {"status", draw_status},
+    {"pyramid", draw_pyramid},
+    {"shown strategies", draw_shown_strategies},
     {"compare view", draw_compare_view},
     {"selection", draw_selection},
     {"overlays", draw_overlays},

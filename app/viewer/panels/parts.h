@@ -32,6 +32,8 @@ Change draw_status(App& app);
 Change draw_selection(App& app);  // marks the object or lamp that is being edited
 Change draw_overlays(App& app);   // loading, notices, default sky, legend
 Change draw_inspector(App& app);  // the dock below, the lines' names, the pixel under the mouse
+Change draw_pyramid(App& app);    // beside it: what each strategy finds
+Change draw_shown_strategies(App& app);
 Change draw_gallery(App& app);
 Change draw_compare_view(App& app);  // line of the wipe, captions, scale of differences
 Change draw_tour(App& app);

@@ -12,13 +12,6 @@
 namespace midway {
 namespace {
 
-std::string short_number(double n) {
-    if (n < 1000) return fmt::format("{:.0f}", n);
-    if (n < 1e6) return fmt::format("{:.1f} k", n / 1e3);
-    if (n < 1e9) return fmt::format("{:.2f} M", n / 1e6);
-    return fmt::format("{:.2f} G", n / 1e9);
-}
-
 std::string duration(double seconds) {
     if (seconds < 60) return fmt::format("{:.1f} s", seconds);
     const auto whole = static_cast<long long>(seconds);
@@ -91,7 +84,7 @@ void draw_cells(App& app) {
         cell(theme::light, fmt::format("1/{} resolution", s.scale),
              "While things change, fewer and larger pixels keep the image quick", 8);
     } else {
-        cell(theme::text, short_number(static_cast<double>(s.passes)) + " spp",
+        cell(theme::text, ui::short_number(static_cast<double>(s.passes)) + " spp",
              "Samples that every pixel has had", 5);
     }
     cell(theme::text, duration(s.seconds), "Time spent rendering this image", 4.6f);
@@ -101,9 +94,9 @@ void draw_cells(App& app) {
         "Estimated relative error: the root of the relMSE that is expected against the truth, from "
         "the difference of the two independent halves of the samples",
         7);
-    cell(theme::text_dim, short_number(s.samples_per_second) + " samples/s",
+    cell(theme::text_dim, ui::short_number(s.samples_per_second) + " samples/s",
          "Pixel samples a second, all threads together", 8.2f);
-    cell(theme::text_dim, short_number(s.rays_per_second) + " rays/s",
+    cell(theme::text_dim, ui::short_number(s.rays_per_second) + " rays/s",
          "Rays a second, all threads together, shadow rays included", 7.4f);
     cell(theme::text_dim, fmt::format("{} x {}", s.width, s.height), "Pixels of the image", 6);
     if (s.statistics.nonfinite.count == 0) return;

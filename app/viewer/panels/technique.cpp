@@ -5,6 +5,7 @@
 #include <array>
 
 #include "viewer/panels/parts.h"
+#include "viewer/strategy_view.h"
 #include "viewer/theme.h"
 #include "viewer/widgets.h"
 
@@ -122,6 +123,15 @@ Change draw_technique(App& app) {
     ui::wrapped(theme::text_dim, in_one_line(app.render.settings.technique));
     draw_not_covered(app);
     change |= draw_exponent(app);
+    const bool open = app.display.pyramid.open;
+    if (ui::wide_button(open ? "Close the strategy pyramid" : "Strategy pyramid",
+                        "Every way to find light as a picture of its own, while the image goes on "
+                        "refining: which strategy finds what, with what share of light, noise and "
+                        "rays. [Shift+P]",
+                        ImGui::GetContentRegionAvail().x)) {
+        open_pyramid(app, !open);
+        change.display = true;
+    }
     ui::end_section(app);
     return change;
 }
