@@ -18,7 +18,7 @@ namespace midway {
 namespace {
 
 // Places of the samples: strata of the crop, a pair in each.
-constexpr int columns = 256, rows = 128;
+constexpr int columns = 256, rows = 64;
 constexpr int samples = 2 * columns * rows;
 // What one thread does at a time. Sums are kept apart by chunk and added in their order.
 constexpr int chunks = 32, rows_per_chunk = rows / chunks;
@@ -323,30 +323,50 @@ const PlanForecast& PlanDecision::chosen() const {
                          [&](const PlanForecast& f) { return f.plan == plan; });
 }
 
+namespace {
+
+// Plans with connections end their walks by roulette earlier than others (make_estimator), which
+// changes noise and cost alike: each kind is measured with its own, from the same random numbers.
+struct Run {
+    ChunkResult sums;
+    std::vector<double> errors;  // relative_errors()
+};
+std::optional<Run> run_pilot(const Estimator& e, const Candidates& candidates, int threads,
+                             const RenderControl* control) {
+    const Grid grid(e.crop);
+    std::vector<ChunkResult> parts = sample_all(e, grid, candidates, threads, control);
+    if (parts.empty()) return {};
+    Run run{added(parts), {}};
+    run.errors = relative_errors(run.sums, grid, candidates.count);
+    return run;
+}
+
+}  // namespace
+
 std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescription& camera,
                                         const RenderSettings& settings, int threads,
                                         const RenderControl* control) {
     const auto start = std::chrono::steady_clock::now();
     const Estimator e = pilot_estimator(scene, camera, settings);
     const Candidates candidates = find_candidates(scene, e);
-    PlanDecision decision;
     const Plan full{e.families, e.families.needs_light_subpaths() ? 4 : 0};
-    decision.plan = full;
+    PlanDecision decision{full, {}};
     if (candidates.count < 2) {
         decision.forecasts.push_back({full});
         return decision;
     }
-    const Grid grid(e.crop);
-    std::vector<ChunkResult> parts = sample_all(e, grid, candidates, threads, control);
-    if (parts.empty()) return {};
-    const ChunkResult sums = added(parts);
-    const std::vector<double> errors = relative_errors(sums, grid, candidates.count);
+    Estimator unconnected = e;
+    unconnected.roulette_start = roulette_start(Families{true, true, true, false});
+    const std::optional<Run> a = run_pilot(e, candidates, threads, control);
+    const std::optional<Run> b = run_pilot(unconnected, candidates, threads, control);
+    if (!a || !b) return {};
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0; i < candidates.count; ++i) {
         PlanForecast f{candidates.plans[i]};
-        f.cost = cost_of(f.plan, sums.counts) / cost_of(full, sums.counts);
+        const Run& run = f.plan.families.connection ? *a : *b;
+        f.cost = cost_of(f.plan, run.sums.counts) / cost_of(full, a->sums.counts);
         // A black image has no error to compare: the cheapest plan then.
-        f.error = errors.back() > 0 ? errors[i] / errors.back() : 1;
+        f.error = a->errors.back() > 0 ? run.errors[i] / a->errors.back() : 1;
         if (!(f.error > 0)) f.error = std::numeric_limits<double>::infinity();
         if (f.time() < margin * best) {
             best = f.time();

@@ -1,4 +1,4 @@
-// How `auto` finds out what a scene needs. Some 65,000 samples of bidirectional path tracing that
+// How `auto` finds out what a scene needs. 65,536 samples of bidirectional path tracing that
 // never enter an image tell what each way to render it, a *plan*, would cost and how noisy it would
 // be; the plan with the smallest error x time is taken. A plan is a choice of families and of light
 // subpaths per pixel: none, so that what is left is a path tracer; light tracing alone, from a

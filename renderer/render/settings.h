@@ -48,6 +48,9 @@ FilterKind parse_filter(std::string_view text);
 // The families that a technique stands for.
 Families families_of(Technique t);
 
+// The bounce from which roulette may end a walk.
+int roulette_start(const Families& families);
+
 // Checks the settings against each other (std::invalid_argument with one line) and binds them to a
 // scene and a camera. Light subpaths per pass are as many as the crop has pixels, but for a plan;
 // `auto` without a plan is bdpt with all families.
