@@ -156,13 +156,15 @@ int run(RenderCommand& c) {
     ErrorWatch watch(c.errors, c.settings);
     const PreparedScene p = prepare_scene(c.scene);
     if (!c.quiet) print_warnings(p.warnings);
-    if (const auto d = choose_plan(*p.scene, p.camera, c.settings, c.renderer.threads))
-        if (!c.quiet) { fmt::print(stderr, "midway: auto: {}\n", describe(*d)); for (auto& f : d->forecasts) fmt::print(stderr, "   {:70} cost {:.3f} error {:.4g} time {:.4g}\n", describe(f.plan), f.cost, f.error, f.time()); fmt::print(stderr, "   {:.2f} s\n", d->seconds); }
+    const std::optional<PlanDecision> decision =
+        choose_plan(*p.scene, p.camera, c.settings, c.renderer.threads);
+    if (decision && !c.quiet) fmt::print(stderr, "midway: auto: {}\n", describe(*decision));
     if (!c.debug_pixel.empty()) return debug(c, p);
     ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
     if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
     catch_interrupt();
-    const RunFigures figures = render_all(c, p, r, watch);
+    RunFigures figures = render_all(c, p, r, watch);
+    figures.decision = decision;
     write_outputs(c.outputs, p, c.settings, r, figures);
 
     const RenderStatistics s = r.statistics();

@@ -41,7 +41,8 @@ struct PlanDecision {
     const PlanForecast& chosen() const;
 };
 
-// `threads` as in LiveJob: 0 for all processors. Throws as make_estimator(). Nothing comes back where `control` ended it.
+// `threads` as in LiveJob: 0 for all processors. Throws as make_estimator(). Nothing comes back
+// where `control` ended it.
 std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescription& camera,
                                         const RenderSettings& settings, int threads,
                                         const RenderControl* control = nullptr);
