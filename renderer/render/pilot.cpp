@@ -2,263 +2,51 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <thread>
 
-#include "integrator/estimator.h"
-#include "math/float_mode.h"
 #include "render/coverage.h"
+#include "render/pilot_sums.h"
 
 namespace midway {
 namespace {
 
-// Places of the samples: strata of the crop, a pair in each.
-constexpr int columns = 256, rows = 64;
-constexpr int samples = 2 * columns * rows;
-// What one thread does at a time. Sums are kept apart by chunk and added in their order.
-constexpr int chunks = 32, rows_per_chunk = rows / chunks;
-// Errors are relative to the image, which is known coarsely: in blocks, at most so many a side.
-constexpr int most_blocks = 64;
 // As in the trimmed relMSE: a few pixels that no plan can help must not decide.
 constexpr double trimmed_share = 0.001;
 // A plan that needs more kinds of strategy must be so much better.
 constexpr double margin = 0.98;
-constexpr std::uint64_t pilot_seed = 0x70696c6f74;
-
-// The weights of the pilot's samples: exponent 1 three times, over these families.
-enum Column { all, camera_side, without_connections, column_count };
-
+// No plan is believed to have less of the full one's error than this: a difference of noisy sums.
+constexpr double least_error = 0.02;
 // Prices, in units of a camera walk's ray. Measured on the project's scenes (tests/README.md).
 struct Prices {
     double sample = 0.5, camera_ray = 1, next_event = 0.7;
     double subpath = 0.4, light_ray = 0.9, light_tracing = 0.6, connection = 0.5;
 };
 
-struct Candidates {
-    std::array<Plan, 8> plans;
-    int count = 0;
-    void add(const Families& f, int quarters) { plans[count++] = {f, quarters}; }
-};
-constexpr size_t most_candidates = 8;
-
-struct BlockSums {
-    double image = 0;         // of luminance
-    double splat_square = 0;  // of the full plan's splats
-    // What the second moment of each plan has more than the full one's.
-    std::array<double, most_candidates> excess{};
-};
-
-struct Pair {
-    double square = 0;  // of the difference of the two samples' luminances
-    int block = 0;
-};
-
-struct Counts {
-    RayCounts camera, light;
-    std::vector<std::uint64_t> by_strategy;
-};
-
-struct ChunkResult {
-    std::vector<BlockSums> blocks;
-    std::vector<Pair> pairs;
-    Counts counts;
-};
-
-struct Grid {
-    PixelRect crop;
-    int x = 1, y = 1;
-    explicit Grid(const PixelRect& c)
-        : crop(c), x(std::min(most_blocks, c.width())), y(std::min(most_blocks, c.height())) {}
-    int block(int px, int py) const {
-        return static_cast<int>(std::int64_t{py - crop.y0} * y / crop.height()) * x +
-               static_cast<int>(std::int64_t{px - crop.x0} * x / crop.width());
-    }
-};
-
-double light_share(const Plan& p) { return p.light_quarters / 4.0; }
-
-// Sums over strategies j of n_j p_j / (n_k p_k), from the weights of strategy k.
-struct Densities {
-    double camera_side = 0, light_tracing = 0, connection = 0;
-    double full = 0;
-    double of(const Plan& p) const {
-        return camera_side + (p.families.light_tracing ? light_share(p) * light_tracing : 0) +
-               (p.families.connection ? connection : 0);
-    }
-};
-
-Densities densities(const Contribution& c) {
-    const Family family = family_of(c.strategy);
-    const bool on_camera_side = family == Family::emitter_hit || family == Family::next_event;
-    const bool connects = family == Family::connection;
-    // A weight is 1 / (1 + the others); the 1 belongs to k, which need not be of the plan.
-    const double own_only = 1 / c.weights[camera_side] - (on_camera_side ? 0 : 1);
-    const double no_connections = 1 / c.weights[without_connections] - (connects ? 1 : 0);
-    Densities d;
-    d.full = 1 / c.weights[all];
-    d.camera_side = std::max(0.0, own_only);
-    d.light_tracing = std::max(0.0, no_connections - own_only);
-    d.connection = std::max(0.0, d.full - no_connections);
-    return d;
-}
-
-class PilotRecord {
-  public:
-    PilotRecord(const Grid& grid, const Candidates& candidates, std::vector<BlockSums>& blocks)
-        : grid_(grid), candidates_(candidates), blocks_(blocks) {}
-
-    void begin(int x, int y) {
-        block_ = grid_.block(x, y);
-        luminance_ = 0;
-    }
-    double end() const { return luminance_; }
-
-    bool wants(const Strategy&) const { return true; }
-    void contribution(const Contribution& c) { luminance_ += add(blocks_[block_], c); }
-    void splat(int x, int y, const Contribution& c) {
-        BlockSums& b = blocks_[grid_.block(x, y)];
-        b.splat_square += sqr(add(b, c));
-    }
-
-  private:
-    // Returns the weighted luminance.
-    double add(BlockSums& b, const Contribution& c) const {
-        const double value = luminance(c.value), weight = c.weights[all];
-        if (!(value > 0) || !(weight > 0) || !std::isfinite(value)) return 0;
-        const Densities d = densities(c);
-        const double square = weight * value * value;
-        for (int i = 0; i < candidates_.count; ++i)
-            b.excess[i] += square * (1 / d.of(candidates_.plans[i]) - weight);
-        b.image += weight * value;
-        return weight * value;
-    }
-
-    const Grid& grid_;
-    const Candidates& candidates_;
-    std::vector<BlockSums>& blocks_;
-    int block_ = 0;
-    double luminance_ = 0;
-};
-
 // Plans that make every path the full one makes.
 Candidates find_candidates(const Scene& scene, const Estimator& full) {
     const SceneFeatures features = scene_features(scene);
     const auto gaps = [&](const Families& f) {
-        return not_covered(features, f, full.direct_lamps).size();
+        return not_covered(features, f, full.direct_lamps);
     };
     const Families& f = full.families;
-    const size_t fewest = gaps(f);
+    const std::vector<std::string> unavoidable = gaps(f);
     Candidates c;
     const Families own{f.emitter_hit, f.next_event, false, false};
-    if (gaps(own) == fewest) c.add(own, 0);
+    if (gaps(own) == unavoidable) c.add(own, 0);
     if (f.light_tracing) {
         const Families tracing{f.emitter_hit, f.next_event, true, false};
-        if (gaps(tracing) == fewest)
+        if (gaps(tracing) == unavoidable)
             for (const int quarters : {1, 2, 4, 8}) c.add(tracing, quarters);
     }
     if (f.connection) {
         const Families connecting{f.emitter_hit, f.next_event, false, true};
-        if (f.light_tracing && gaps(connecting) == fewest) c.add(connecting, 4);
+        if (f.light_tracing && gaps(connecting) == unavoidable) c.add(connecting, 4);
         c.add(f, 4);
         if (f.light_tracing) c.add(f, 8);
     }
     return c;
-}
-
-Estimator pilot_estimator(const Scene& scene, const CameraDescription& camera, RenderSettings s) {
-    s.plan.reset();
-    s.exponents.assign(column_count, 1.0);
-    s.seed = pilot_seed;
-    Estimator e = make_estimator(scene, camera, s);
-    e.weighed[camera_side].light_tracing = e.weighed[camera_side].connection = false;
-    e.weighed[without_connections].connection = false;
-    return e;
-}
-
-void sample_pair(const Estimator& e, const Grid& grid, int column, int row, PilotRecord& record,
-                 LightSubpath& scratch, ChunkResult& result) {
-    const std::uint64_t stratum = std::uint64_t(row) * columns + column;
-    const std::uint64_t jitter = hash_combine(pilot_seed, stratum);
-    const auto place = [](int i, std::uint32_t random, int strata, int size) {
-        const double u = (i + random * 0x1p-32) / strata;
-        return std::min(static_cast<int>(u * size), size - 1);
-    };
-    const int x = e.crop.x0 + place(column, std::uint32_t(jitter), columns, e.crop.width());
-    const int y = e.crop.y0 + place(row, std::uint32_t(jitter >> 32), rows, e.crop.height());
-    double luminances[2];
-    for (int half = 0; half < 2; ++half) {
-        const std::uint64_t pass = 2 * stratum + half;
-        record.begin(x, y);
-        scratch.clear();
-        if (e.families.needs_light_subpaths())
-            trace_light_subpath(e, paired_subpath(e, x, y, pass), pass, scratch, record,
-                                result.counts.light);
-        trace_camera_subpath(e, x, y, pass, scratch, record, result.counts.camera);
-        luminances[half] = record.end();
-    }
-    result.pairs.push_back({sqr(luminances[0] - luminances[1]), grid.block(x, y)});
-}
-
-ChunkResult sample_chunk(const Estimator& e, const Grid& grid, const Candidates& candidates,
-                         int chunk, const RenderControl* control) {
-    ChunkResult result;
-    result.blocks.resize(size_t(grid.x) * grid.y);
-    result.counts.by_strategy.resize(strategy_count(e.max_bounces + 1) + 1);
-    result.counts.camera.by_strategy = result.counts.light.by_strategy = &result.counts.by_strategy;
-    PilotRecord record(grid, candidates, result.blocks);
-    LightSubpath scratch;
-    for (int row = chunk * rows_per_chunk; row < (chunk + 1) * rows_per_chunk; ++row)
-        for (int column = 0; column < columns; ++column) {
-            if (control && !control->go_on()) return {};
-            sample_pair(e, grid, column, row, record, scratch, result);
-        }
-    result.counts.camera.by_strategy = result.counts.light.by_strategy = nullptr;
-    return result;
-}
-
-// Empty where `control` ended it.
-std::vector<ChunkResult> sample_all(const Estimator& e, const Grid& grid,
-                                    const Candidates& candidates, int threads,
-                                    const RenderControl* control) {
-    if (threads < 1) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<ChunkResult> results(chunks);
-    std::atomic<int> next{0};
-    {
-        std::vector<std::jthread> workers;
-        for (int i = 0; i < std::min(threads, chunks); ++i)
-            workers.emplace_back([&] {
-                const ScopedFlushToZero flush;
-                for (int c = next++; c < chunks; c = next++)
-                    results[c] = sample_chunk(e, grid, candidates, c, control);
-            });
-    }
-    for (const ChunkResult& r : results)
-        if (r.pairs.empty()) return {};
-    return results;
-}
-
-ChunkResult added(std::vector<ChunkResult>& parts) {
-    ChunkResult all = std::move(parts.front());
-    for (size_t i = 1; i < parts.size(); ++i) {
-        const ChunkResult& p = parts[i];
-        for (size_t b = 0; b < all.blocks.size(); ++b) {
-            all.blocks[b].image += p.blocks[b].image;
-            all.blocks[b].splat_square += p.blocks[b].splat_square;
-            for (size_t k = 0; k < most_candidates; ++k)
-                all.blocks[b].excess[k] += p.blocks[b].excess[k];
-        }
-        all.pairs.insert(all.pairs.end(), p.pairs.begin(), p.pairs.end());
-        for (size_t k = 0; k < all.counts.by_strategy.size(); ++k)
-            all.counts.by_strategy[k] += p.counts.by_strategy[k];
-        all.counts.camera.closest += p.counts.camera.closest;
-        all.counts.light.closest += p.counts.light.closest;
-    }
-    return all;
 }
 
 // Without the largest so many.
@@ -269,46 +57,70 @@ double trimmed_sum(std::vector<double>& values, size_t trimmed) {
     return sum;
 }
 
-// The relative squared error of each plan, per sample of a pixel; the last element is that of the
-// full one.
-std::vector<double> relative_errors(const ChunkResult& r, const Grid& grid, int candidates) {
-    std::vector<double> pixels(r.blocks.size(), 0.0), scale(r.blocks.size());
+double sum_of_squares(const Energies& e) {
+    double sum = 0;
+    for (const double x : e) sum += x * x;
+    return sum;
+}
+
+struct Relative {
+    std::vector<double> per_sample;  // of a block: from sums to means per pixel and pass
+    std::vector<double> scale;       // 1 / (image^2 + 0.01 mean^2)
+};
+
+Relative relative_scales(const PilotSums& r, const Grid& grid) {
+    std::vector<double> pixels(r.blocks.size(), 0.0);
     for (int y = grid.crop.y0; y < grid.crop.y1; ++y)
         for (int x = grid.crop.x0; x < grid.crop.x1; ++x) ++pixels[grid.block(x, y)];
+    Relative relative;
     double mean = 0;
-    for (const BlockSums& b : r.blocks) mean += b.image / samples;
+    for (const BlockSums& b : r.blocks) mean += b.image / pilot_samples;
     for (size_t b = 0; b < r.blocks.size(); ++b) {
-        const double image = r.blocks[b].image * double(grid.crop.area()) / (samples * pixels[b]);
-        const double denominator = sqr(image) + 0.01 * sqr(mean);
-        scale[b] = denominator > 0 ? 1 / denominator : 0;
+        const double per_sample = double(grid.crop.area()) / (pilot_samples * pixels[b]);
+        const double denominator = sqr(r.blocks[b].image * per_sample) + 0.01 * sqr(mean);
+        relative.per_sample.push_back(per_sample);
+        relative.scale.push_back(denominator > 0 ? 1 / denominator : 0);
     }
+    return relative;
+}
+
+// The relative squared error of each plan, per sample of a pixel; the last element is that of the
+// full one. A camera sample's contributions have the variance E[x^2] - E[x]^2; splats are so rare
+// in a pixel that theirs is E[x^2].
+std::vector<double> relative_errors(const PilotSums& r, const Grid& grid, int candidates) {
+    const Relative relative = relative_scales(r, grid);
     std::vector<double> squares;
-    for (const Pair& p : r.pairs) squares.push_back(p.square * scale[p.block]);
-    double common = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
-    for (size_t b = 0; b < r.blocks.size(); ++b) common += r.blocks[b].splat_square * scale[b];
+    for (const Pair& p : r.pairs) squares.push_back(p.square * relative.scale[p.block]);
+    double full = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
+    for (size_t b = 0; b < r.blocks.size(); ++b)
+        full += r.blocks[b].splat_square * relative.scale[b];
     std::vector<double> errors;
     for (int i = 0; i < candidates; ++i) {
         std::vector<double> excess;
-        for (size_t b = 0; b < r.blocks.size(); ++b)
-            excess.push_back(r.blocks[b].excess[i] * scale[b]);
+        for (size_t b = 0; b < r.blocks.size(); ++b) {
+            const BlockSums& sums = r.blocks[b];
+            const double means = sum_of_squares(sums.energy[i]) - sum_of_squares(sums.full_energy);
+            excess.push_back(relative.scale[b] * (sums.excess[i] - means * relative.per_sample[b]));
+        }
         const double more = trimmed_sum(excess, size_t(trimmed_share * double(excess.size())));
-        errors.push_back((common + more) / samples);
+        errors.push_back(std::max(least_error * full, full + more) / pilot_samples);
     }
-    errors.push_back(common / samples);
+    errors.push_back(full / pilot_samples);
     return errors;
 }
 
-double cost_of(const Plan& p, const Counts& n) {
+double cost_of(const Plan& p, const PilotSums& n) {
     const Prices price;
     std::array<double, 4> rays{};
-    for (int edges = 1; strategy_count(edges) < n.by_strategy.size(); ++edges)
+    for (int edges = 1; strategy_count(edges) < n.shadow_rays.size(); ++edges)
         for (int s = 1; s <= edges + 1; ++s) {
             const Strategy k{s, edges + 1 - s};
-            rays[size_t(family_of(k))] += double(n.by_strategy[strategy_index(k)]);
+            rays[size_t(family_of(k))] += double(n.shadow_rays[strategy_index(k)]);
         }
-    const double camera = price.sample * samples + price.camera_ray * double(n.camera.closest) +
+    const double camera = price.sample * pilot_samples +
+                          price.camera_ray * double(n.camera.closest) +
                           price.next_event * rays[size_t(Family::next_event)];
-    double light = price.subpath * samples + price.light_ray * double(n.light.closest);
+    double light = price.subpath * pilot_samples + price.light_ray * double(n.light.closest);
     if (p.families.light_tracing)
         light += price.light_tracing * rays[size_t(Family::light_tracing)];
     const double connections =
@@ -328,15 +140,15 @@ namespace {
 // Plans with connections end their walks by roulette earlier than others (make_estimator), which
 // changes noise and cost alike: each kind is measured with its own, from the same random numbers.
 struct Run {
-    ChunkResult sums;
+    PilotSums sums;
     std::vector<double> errors;  // relative_errors()
 };
 std::optional<Run> run_pilot(const Estimator& e, const Candidates& candidates, int threads,
                              const RenderControl* control) {
     const Grid grid(e.crop);
-    std::vector<ChunkResult> parts = sample_all(e, grid, candidates, threads, control);
-    if (parts.empty()) return {};
-    Run run{added(parts), {}};
+    std::optional<PilotSums> sums = sample_pilot(e, grid, candidates, threads, control);
+    if (!sums) return {};
+    Run run{std::move(*sums), {}};
     run.errors = relative_errors(run.sums, grid, candidates.count);
     return run;
 }
@@ -364,7 +176,7 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
     for (int i = 0; i < candidates.count; ++i) {
         PlanForecast f{candidates.plans[i]};
         const Run& run = f.plan.families.connection ? *a : *b;
-        f.cost = cost_of(f.plan, run.sums.counts) / cost_of(full, a->sums.counts);
+        f.cost = cost_of(f.plan, run.sums) / cost_of(full, a->sums);
         // A black image has no error to compare: the cheapest plan then.
         f.error = a->errors.back() > 0 ? run.errors[i] / a->errors.back() : 1;
         if (!(f.error > 0)) f.error = std::numeric_limits<double>::infinity();
