@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "plan_json.h"
 #include "render/coverage.h"
 #include "session_options.h"
 
@@ -95,6 +96,22 @@ void print_text(const Json& j) {
     for (const Json& n : j["not_covered"])
         fmt::print("  {} does not cover: {}\n", n["technique"].get<std::string>(),
                    n["what"].get<std::string>());
+    if (!j.contains("plan")) return;
+    fmt::print("  auto: {}\n    {:<76} {:>6} {:>9} {:>8}\n", j["plan"]["what"].get<std::string>(),
+               "relative to plain bdpt, expected", "cost", "error", "time");
+    const auto figure = [](const Json& x) {
+        return x.is_null() ? std::string("-") : fmt::format("{:.3g}", x.get<double>());
+    };
+    for (const Json& f : j["plan"]["weighed_up"])
+        fmt::print("    {:<76} {:>6} {:>9} {:>8}\n", f["what"].get<std::string>(),
+                   figure(f["cost"]), figure(f["error"]), figure(f["time"]));
+}
+
+// With the settings that `midway render` has by default.
+Json cost_json(const PreparedScene& p) {
+    RenderSettings s;
+    s.technique = Technique::automatic;
+    return plan_json(*choose_plan(*p.scene, p.camera, s, 0));
 }
 
 }  // namespace
@@ -102,13 +119,16 @@ void print_text(const Json& j) {
 Command add_info_command(CLI::App& app) {
     auto options = std::make_shared<SceneOptions>();
     auto json = std::make_shared<bool>(false);
+    auto cost = std::make_shared<bool>(false);
     CLI::App& sub = *app.add_subcommand("info", "What is in a scene, and what it needs");
     add_scene_options(sub, *options);
     sub.add_flag("--json", *json, "Print JSON");
-    return [options, json, &sub] {
+    sub.add_flag("--cost", *cost, "What auto would leave out, and what that saves");
+    return [options, json, cost, &sub] {
         take_session(sub, *options, *json);
         const PreparedScene p = prepare_scene(*options);
-        const Json j = describe_scene(p);
+        Json j = describe_scene(p);
+        if (*cost) j["plan"] = cost_json(p);
         if (*json) {
             fmt::print("{}\n", j.dump(2));
         } else {

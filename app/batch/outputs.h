@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/image_metadata.h"
+#include "render/pilot.h"
 #include "render/renderer.h"
 
 namespace midway {
@@ -13,6 +14,7 @@ namespace midway {
 struct RunFigures {
     double seconds_render = 0, cpu_seconds = 0;
     bool interrupted = false;
+    std::optional<PlanDecision> decision;  // of `auto`
 };
 
 struct OutputOptions {

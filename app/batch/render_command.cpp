@@ -10,6 +10,7 @@
 #include "outputs.h"
 #include "progress.h"
 #include "render/coverage.h"
+#include "render/pilot.h"
 #include "render/waves.h"
 #include "render_options.h"
 #include "sample_output.h"
@@ -28,7 +29,7 @@ struct RenderCommand {
     std::optional<std::uint64_t> spp;
     std::optional<double> seconds;
     RenderWords words;
-    std::string technique = "bdpt";
+    std::string technique = "auto";
     std::vector<double> exponents;
     std::vector<std::uint64_t> debug_pixel;
     CheckpointOptions checkpoint;
@@ -155,11 +156,15 @@ int run(RenderCommand& c) {
     ErrorWatch watch(c.errors, c.settings);
     const PreparedScene p = prepare_scene(c.scene);
     if (!c.quiet) print_warnings(p.warnings);
+    const std::optional<PlanDecision> decision =
+        choose_plan(*p.scene, p.camera, c.settings, c.renderer.threads);
+    if (decision && !c.quiet) fmt::print(stderr, "midway: auto: {}\n", describe(*decision));
     if (!c.debug_pixel.empty()) return debug(c, p);
     ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
     if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
     catch_interrupt();
-    const RunFigures figures = render_all(c, p, r, watch);
+    RunFigures figures = render_all(c, p, r, watch);
+    figures.decision = decision;
     write_outputs(c.outputs, p, c.settings, r, figures);
 
     const RenderStatistics s = r.statistics();
@@ -209,7 +214,7 @@ Command add_render_command(CLI::App& app) {
     c->command = &sub;
     add_scene_options(sub, c->scene);
     add_image_options(sub, *c);
-    sub.add_option("--technique", c->technique, "path, light, bdpt or bdpt:EXPONENT")
+    sub.add_option("--technique", c->technique, "path, light, bdpt, bdpt:EXPONENT or auto")
         ->capture_default_str();
     sub.add_option("--exponent", c->exponents, "Exponent of the MIS weights; a list: same paths")
         ->delimiter(',');

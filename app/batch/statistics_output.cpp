@@ -4,6 +4,7 @@
 
 #include "image/file.h"
 #include "outputs.h"
+#include "plan_json.h"
 #include "render/coverage.h"
 
 namespace midway {
@@ -82,6 +83,14 @@ void write_stats(const std::string& path, const PreparedScene& p, const RenderSe
     j["clamped"] = s.clamped;
     j["strategies"] = strategies_json(s);
     add_gaps(j, p, settings.technique, r.estimator());
+    if (figures.decision) {
+        j["plan"] = plan_json(*figures.decision);
+        const Families before = families_of(settings.technique), now = r.estimator().families;
+        for (const Family f : {Family::light_tracing, Family::connection})
+            if (before.has(f) && !now.has(f) && figures.decision->forecasts.size() > 1)
+                j["left_out"].push_back({{"what", f == Family::connection ? "connect" : "light"},
+                                         {"why", "auto: " + describe(*figures.decision)}});
+    }
     atomic_write(path, j.dump(2) + "\n");
 }
 

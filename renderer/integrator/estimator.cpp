@@ -13,8 +13,14 @@ bool no_weight(const Estimator& e, const Contribution& c) {
 
 // The strategy that moves the connecting edge one step towards the camera (or the light) is
 // feasible if its family is in use; vertices and lights that forbid it have zero sums.
-bool towards_camera(const Estimator& e, const Strategy& k) { return e.has({k.s - 1, k.t + 1}); }
-bool towards_light(const Estimator& e, const Strategy& k) { return e.has({k.s + 1, k.t - 1}); }
+mis::Side towards_camera(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
+    side.connects = e.weighs({k.s - 1, k.t + 1}, exponent);
+    return side;
+}
+mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
+    side.connects = e.weighs({k.s + 1, k.t - 1}, exponent);
+    return side;
+}
 
 }  // namespace
 
@@ -30,9 +36,9 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     c.strategy = k;
     c.value = w.throughput * hit->radiance;
     // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
-    const mis::EmitterHitPdfs pdfs{hit->pdfs.origin, hit->pdfs.leave, hit->pdfs.next_event,
-                                   k.s > 2 && e.has({k.s - 1, 1})};
+    mis::EmitterHitPdfs pdfs{hit->pdfs.origin, hit->pdfs.leave, hit->pdfs.next_event, true};
     fill_weights(e, c, [&](const auto& h, int i) {
+        pdfs.next_event_feasible = e.weighs({k.s - 1, 1}, i);
         return k.s == 2 ? 1.0 : mis::emitter_hit(h, w.mis[i], pdfs);
     });
     return c;
@@ -52,12 +58,12 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
     c.value = v.throughput * f.f * n->value * static_cast<float>(cos_v);
 
     const double g_light = n->cos_theta / double(n->distance_squared);  // 1 at infinity
-    const mis::Side side{n->pdfs.leave * cos_v / n->distance_squared, f.pdf_rev_w,
-                         towards_camera(e, c.strategy)};
-    const mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light,
-                                  !is_delta(kind) && e.families.emitter_hit};
-    fill_weights(e, c,
-                 [&](const auto& h, int i) { return mis::next_event(h, v.mis[i], side, pdfs); });
+    const mis::Side side{n->pdfs.leave * cos_v / n->distance_squared, f.pdf_rev_w};
+    mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light};
+    fill_weights(e, c, [&](const auto& h, int i) {
+        pdfs.hit_feasible = !is_delta(kind) && e.weighed[i].emitter_hit;
+        return mis::next_event(h, v.mis[i], towards_camera(e, c.strategy, i, side), pdfs);
+    });
     if (is_black(c.value) || no_weight(e, c)) return {};
 
     rays.count_shadow(c.strategy);
@@ -88,10 +94,11 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
     c.value = v.throughput * fv.f * fl.f * l.throughput * static_cast<float>(g_v * g_l * distance2);
     if (is_black(c.value)) return {};
 
-    const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w, towards_camera(e, c.strategy)};
-    const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w, towards_light(e, c.strategy)};
+    const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w};
+    const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w};
     fill_weights(e, c, [&](const auto& h, int i) {
-        return mis::connection(h, v.mis[i], camera, l.mis[i], light);
+        return mis::connection(h, v.mis[i], towards_camera(e, c.strategy, i, camera), l.mis[i],
+                               towards_light(e, c.strategy, i, light));
     });
     if (no_weight(e, c)) return {};
 
@@ -128,9 +135,10 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l,
     c.value =
         l.throughput * f.f * static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
     if (is_black(c.value)) return {};
-    const mis::Side side{pdf_a, f.pdf_rev_w, towards_light(e, c.strategy)};
+    const mis::Side side{pdf_a, f.pdf_rev_w};
     fill_weights(e, c, [&](const auto& h, int i) {
-        return mis::light_tracing(h, l.mis[i], side, double(e.light_subpaths));
+        return mis::light_tracing(h, l.mis[i], towards_light(e, c.strategy, i, side),
+                                  double(e.light_subpaths));
     });
     if (no_weight(e, c)) return {};
 

@@ -128,14 +128,19 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
     }
 }
 
-// The sample of one pixel in one pass, with the light subpath that belongs to it.
+// The sample of one pixel in one pass, with the light subpaths that belong to it.
 template <class Record>
 void estimate(const Estimator& e, int x, int y, std::uint64_t pass, LightSubpath& scratch,
               Record& record, RayCounts& rays) {
     scratch.clear();
-    if (e.families.needs_light_subpaths())
-        trace_light_subpath(e, paired_subpath(e, x, y, pass), pass, scratch, record, rays);
+    if (!e.families.needs_light_subpaths())
+        return trace_camera_subpath(e, x, y, pass, scratch, record, rays);
+    const auto area = static_cast<std::uint64_t>(e.crop.area());
+    const std::uint64_t first = paired_subpath(e, x, y, pass);
+    if (first < e.light_subpaths) trace_light_subpath(e, first, pass, scratch, record, rays);
     trace_camera_subpath(e, x, y, pass, scratch, record, rays);
+    for (std::uint64_t more = first + area; more < e.light_subpaths; more += area)
+        trace_light_subpath(e, more, pass, scratch, record, rays);
 }
 
 }  // namespace midway

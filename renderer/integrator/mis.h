@@ -119,13 +119,6 @@ State store(const Terms<H>& t) {
     return {to_bits(t.vcm), to_bits(t.vc)};
 }
 
-// Number of samples and families: what is feasible apart from the path itself.
-struct Setting {
-    Families families;
-    double light_subpaths = 1;  // n of eq. (22): light subpaths per sample of every pixel
-    bool has(const Strategy& k) const { return families.has(family_of(k)); }
-};
-
 // The factor of a term that belongs to a strategy: 1 where it is feasible.
 template <class H>
 typename H::Number feasible(const H& h, bool yes) {
@@ -147,14 +140,13 @@ struct LightStart {
     double pdf_a = 0;             // p_1
     double g_light = 0;           // g_0
     double next_event_ratio = 1;  // r
-    bool hittable = true;
+    bool hittable = true;         // in this scene, by families in use
 };
 template <class H>
-State start_light(const H& h, const LightStart& l, const Setting& setting) {
+State start_light(const H& h, const LightStart& l) {
     using R = typename H::Real;
-    const bool hit = l.hittable && setting.families.emitter_hit;
     return store<H>({h(R(l.next_event_ratio) / R(l.pdf_a)),
-                     hit ? h(R(l.g_light) / R(l.pdf_origin) / R(l.pdf_a)) : h(0)});
+                     l.hittable ? h(R(l.g_light) / R(l.pdf_origin) / R(l.pdf_a)) : h(0)});
 }
 
 // The step from vertex i-1 to vertex i. For a delta vertex i-1 the densities are the coefficients

@@ -51,6 +51,10 @@ struct Families {
     }
     bool needs_light_subpaths() const { return light_tracing || connection; }
     bool operator==(const Families&) const = default;
+    Families operator&(const Families& o) const {
+        return {emitter_hit && o.emitter_hit, next_event && o.next_event,
+                light_tracing && o.light_tracing, connection && o.connection};
+    }
 };
 
 // "emitter,next-event,light,connect", any subset; throws std::runtime_error for other words.

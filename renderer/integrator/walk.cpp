@@ -20,10 +20,9 @@ std::uint64_t coin(const Walk& w) {
 // Is the strategy that the previous vertex's vcm stands for feasible? On the camera side vertex i
 // stands for the connection of its i predecessors to a longer light subpath (light tracing for i =
 // 1); on the light side for i light vertices (next event for i = 1).
-bool previous_connects(const Estimator& e, const Walk& w) {
+Strategy previous_strategy(const Walk& w) {
     const int i = w.index - 1;
-    const Strategy k = w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{2, i};
-    return e.has(k);
+    return w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{2, i};
 }
 
 template <class Update>
@@ -46,14 +45,19 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     l.pdf_a = w.light_pdfs.leave * cos_in / (w.infinite_light ? 1 : distance2);
     l.g_light = w.infinite_light ? 1 : w.cos_previous / distance2;
     l.next_event_ratio = double(w.light_pdfs.next_event) / w.light_pdfs.origin;
-    l.hittable = w.hittable_light;
-    for_each_exponent(
-        e, [&](const auto& h, int i) { w.mis[i] = mis::start_light(h, l, e.mis_setting()); });
+    for_each_exponent(e, [&](const auto& h, int i) {
+        l.hittable = w.hittable_light && e.weighed[i].emitter_hit;
+        w.mis[i] = mis::start_light(h, l);
+    });
 }
 
 void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
-    const mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, previous_connects(e, w)};
-    for_each_exponent(e, [&](const auto& h, int i) { w.mis[i] = mis::advance(h, w.mis[i], step); });
+    mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, true};
+    const Strategy previous = previous_strategy(w);
+    for_each_exponent(e, [&](const auto& h, int i) {
+        step.connects = e.weighs(previous, i);
+        w.mis[i] = mis::advance(h, w.mis[i], step);
+    });
 }
 
 }  // namespace
@@ -71,7 +75,8 @@ std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pas
     // In the order of the pixels, neighbours and successive passes would meet subpaths from the
     // same strata; a permutation of its own for every pass leaves no pattern.
     const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
-    return permute_index(pixel, e.light_subpaths, hash_combine(e.seed, 0x70616972 + pass));
+    return permute_index(pixel, static_cast<std::uint64_t>(e.crop.area()),
+                         hash_combine(e.seed, 0x70616972 + pass));
 }
 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {

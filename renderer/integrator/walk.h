@@ -34,17 +34,24 @@ struct Estimator {
     bool direct_lamps = true;  // (2,0) is shown, also where emitter hits are not a family in use
     std::array<double, max_exponents> exponents{2};
     int exponent_count = 1;
+    // The families that the weights of each exponent count: those in use, but for a pilot that asks
+    // how others would have weighed the same paths (render/pilot.h).
+    std::array<Families, max_exponents> weighed;
     int max_bounces = 16;
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
-    std::uint64_t light_subpaths = 1;  // per pass: n of eq. (22)
+    // Per pass: n of eq. (22). With connections at least one for each pixel of the crop.
+    std::uint64_t light_subpaths = 1;
 
-    // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy keeps
-    // its own expectation, whatever the survival probability.
+    // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy
+    // keeps its own expectation, whatever the survival probability.
     int roulette_start = 4;
 
-    mis::Setting mis_setting() const { return {families, double(light_subpaths)}; }
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
+    // In the weights of an exponent.
+    bool weighs(const Strategy& k, int exponent) const {
+        return weighed[exponent].has(family_of(k));
+    }
 };
 
 // A surface vertex of a subpath. Endpoints (lens, light) are never stored.
@@ -87,8 +94,16 @@ struct Walk {
 
 SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
 SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
-// The light subpath that the camera sample of a pixel meets in a pass.
+// The light subpath that the camera sample of a pixel meets in a pass. Where this is not below
+// e.light_subpaths, the sample has none; where adding the crop's area (again) is, it has more.
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);
+
+// Calls `use` with the number of every light subpath of a sample.
+template <class Use>
+void for_each_subpath(const Estimator& e, int x, int y, std::uint64_t pass, const Use& use) {
+    const auto step = static_cast<std::uint64_t>(e.crop.area());
+    for (std::uint64_t i = paired_subpath(e, x, y, pass); i < e.light_subpaths; i += step) use(i);
+}
 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass);
 std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);

@@ -30,8 +30,10 @@ std::string_view word_of(T value, const std::pair<std::string_view, T> (&words)[
     return "";
 }
 
-constexpr std::pair<std::string_view, Technique> techniques[] = {
-    {"path", Technique::path}, {"light", Technique::light}, {"bdpt", Technique::bdpt}};
+constexpr std::pair<std::string_view, Technique> techniques[] = {{"path", Technique::path},
+                                                                 {"light", Technique::light},
+                                                                 {"bdpt", Technique::bdpt},
+                                                                 {"auto", Technique::automatic}};
 constexpr std::pair<std::string_view, SamplerKind> samplers[] = {
     {"sobol", SamplerKind::sobol}, {"independent", SamplerKind::independent}};
 constexpr std::pair<std::string_view, FilterKind> filters[] = {
@@ -46,6 +48,15 @@ void leave_out(const SceneFeatures& features, Families& f) {
     f.next_event &= connects;
     f.light_tracing &= connects;
     f.connection &= connects;
+}
+
+// At least one: it is a divisor.
+std::uint64_t light_subpaths(const Plan& plan, std::uint64_t pixels) {
+    const int quarters = plan.light_quarters;
+    const int least = plan.families.connection ? 4 : 0;
+    if (quarters < least || quarters > 8)
+        refuse("impossible number of light subpaths", "plan", "let auto decide");
+    return std::max<std::uint64_t>(1, pixels * quarters / 4);
 }
 
 }  // namespace
@@ -64,9 +75,17 @@ Families families_of(Technique t) {
         case Technique::light:
             return {false, false, true, false};
         case Technique::bdpt:
+        case Technique::automatic:
             return {true, true, true, true};
     }
     return {};
+}
+
+int roulette_start(const Families& families) {
+    // Measured on the project's scenes: connections make long subpaths dear (their number is the
+    // product of the lengths), and early roulette lowers error x time of bdpt by 2 to 40 %; a path
+    // tracer's error grows by as much where light is indirect.
+    return families.connection ? 1 : 4;
 }
 
 Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
@@ -90,24 +109,20 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
         refuse("crop does not lie inside the image", "--crop",
                "use X0,Y0,X1,Y1 with 0 <= X0 < X1 <= width, and the same for Y");
     e.families = families_of(s.technique);
-    if (s.families) {
-        e.families.emitter_hit &= s.families->emitter_hit;
-        e.families.next_event &= s.families->next_event;
-        e.families.light_tracing &= s.families->light_tracing;
-        e.families.connection &= s.families->connection;
-    }
+    if (s.families) e.families = e.families & *s.families;
+    const bool planned = s.technique == Technique::automatic && s.plan;
+    if (planned) e.families = e.families & s.plan->families;
     leave_out(scene_features(scene), e.families);
+    e.weighed.fill(e.families);
     e.direct_lamps = s.technique == Technique::light;
     e.exponent_count = static_cast<int>(s.exponents.size());
     std::copy(s.exponents.begin(), s.exponents.end(), e.exponents.begin());
     e.max_bounces = s.max_bounces;
-    // Measured on the project's scenes: connections make long subpaths dear (their number is the
-    // product of the lengths), and early roulette lowers error x time of bdpt by 2 to 40 %; a path
-    // tracer's error grows by as much where light is indirect.
-    e.roulette_start = e.families.connection ? 1 : 4;
+    e.roulette_start = roulette_start(e.families);
     e.seed = s.seed;
     e.sampler = s.sampler;
-    e.light_subpaths = static_cast<std::uint64_t>(e.crop.area());
+    const auto pixels = static_cast<std::uint64_t>(e.crop.area());
+    e.light_subpaths = planned ? light_subpaths(*s.plan, pixels) : pixels;
     return e;
 }
 

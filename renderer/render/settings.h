@@ -10,12 +10,21 @@
 
 namespace midway {
 
-enum class Technique : std::uint8_t { path, light, bdpt };
+// `automatic` ("auto") is bdpt with what a scene does not need left out (render/pilot.h).
+enum class Technique : std::uint8_t { path, light, bdpt, automatic };
+
+// What `auto` renders with.
+struct Plan {
+    Families families;
+    int light_quarters = 4;  // light subpaths for four pixels: 0, 1, 2, 4 or 8
+    bool operator==(const Plan&) const = default;
+};
 
 struct RenderSettings {
     Technique technique = Technique::bdpt;
     std::vector<double> exponents{2};
     std::optional<Families> families;  // of the technique where absent
+    std::optional<Plan> plan;          // of `auto`; absent: not decided yet
     int width = 512, height = 512;
     std::optional<PixelRect> crop;
     int max_bounces = 16;
@@ -39,9 +48,12 @@ FilterKind parse_filter(std::string_view text);
 // The families that a technique stands for.
 Families families_of(Technique t);
 
+// The bounce from which roulette may end a walk.
+int roulette_start(const Families& families);
+
 // Checks the settings against each other (std::invalid_argument with one line) and binds them to a
-// scene and a camera. Light subpaths per
-// pass are as many as the crop has pixels.
+// scene and a camera. Light subpaths per pass are as many as the crop has pixels, but for a plan;
+// `auto` without a plan is bdpt with all families.
 Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
                          const RenderSettings& settings);
 

@@ -57,7 +57,9 @@ class Replayer {
         if (watch_.own)
             estimate(e_, x, y, pass, scratch_, watch_, rays_);
         else
-            trace_light_subpath(e_, paired_subpath(e_, x, y, pass), pass, scratch_, watch_, rays_);
+            for_each_subpath(e_, x, y, pass, [&](std::uint64_t subpath) {
+                trace_light_subpath(e_, subpath, pass, scratch_, watch_, rays_);
+            });
         keep_brighter(best, {x, y, pass, watch_.sum, luminance(watch_.sum)});
     }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "render/coverage.h"
+#include "render/pilot.h"
 #include "report/comparison_text.h"
 #include "report/convergence_bias.h"
 #include "report/convergence_fit.h"
@@ -74,6 +75,17 @@ std::optional<RenderedReference> get_reference(const ComparePlan& plan, const Co
     return r;
 }
 
+// Decides what `auto` renders with.
+ComparePlan with_decisions(ComparePlan plan) {
+    const PreparedScene& p = *plan.scene;
+    for (TechniqueChoice& t : plan.techniques)
+        if (const auto d = choose_plan(*p.scene, p.camera, t.settings, plan.threads)) {
+            t.decision = describe(*d);
+            t.seconds_before = d->seconds;
+        }
+    return plan;
+}
+
 // Why a difference of the means is no fault of the technique; empty where it is.
 std::string bias_excuse(const TechniqueResult& t, const RenderSettings& s) {
     if (!t.not_covered.empty()) return "it does not cover " + t.not_covered.front();
@@ -93,6 +105,7 @@ TechniqueResult describe_technique(const ComparePlan& plan, const TechniqueChoic
     t.exponent = choice.settings.exponents.front();
     t.label = choice.label;
     t.not_covered = uncovered_paths(*plan.scene, choice.settings);
+    if (!choice.decision.empty()) t.left_out.push_back("auto: " + choice.decision);
     const Families f = families_of(choice.settings.technique);
     for (const FamilyNeed& need : family_needs(scene_features(*plan.scene->scene)))
         if (!need.needed && share_a_family(f, parse_families(need.family)))
@@ -147,7 +160,8 @@ void fit_all(Comparison& c) {
 
 }  // namespace
 
-std::optional<Comparison> compare_scene(const ComparePlan& plan, const CompareHooks& hooks) {
+std::optional<Comparison> compare_scene(const ComparePlan& undecided, const CompareHooks& hooks) {
+    const ComparePlan plan = with_decisions(undecided);
     const std::optional<RenderedReference> reference = get_reference(plan, hooks);
     if (!reference) return {};
     ConvergenceRun run = run_convergence(convergence_plan(plan, reference->reference), hooks);

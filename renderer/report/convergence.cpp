@@ -78,6 +78,7 @@ Runner open_runner(const ConvergencePlan& plan, const TechniqueChoice& t, int se
         }
     }
     r.run.curve.seed = r.settings.seed;
+    if (r.run.passes.total() == 0) r.run.seconds = t.seconds_before;
     r.nonfinite_before = r.run.nonfinite;
     r.cpu_before = r.run.cpu_seconds;
     return r;

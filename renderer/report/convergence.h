@@ -21,6 +21,9 @@ namespace midway {
 struct TechniqueChoice {
     std::string label;  // "bdpt:2"
     RenderSettings settings;
+    // Of `auto`: its decision in words, and the seconds that it took, which count as rendering.
+    std::string decision;
+    double seconds_before = 0;
 };
 
 // The kinds of path, in words, that the technique cannot make although the scene may have them.

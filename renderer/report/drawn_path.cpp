@@ -263,8 +263,12 @@ void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
 
 DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& found) {
     DrawnSample sample;
+    // The camera meets the first light subpath; further ones are splatted alone.
     if (e.families.needs_light_subpaths())
-        sample.light = record_light(e, paired_subpath(e, x, y, pass), pass, found);
+        for_each_subpath(e, x, y, pass, [&](std::uint64_t subpath) {
+            auto light = record_light(e, subpath, pass, found);
+            if (subpath == paired_subpath(e, x, y, pass)) sample.light = std::move(light);
+        });
     // What the camera's walk finds belongs to its own pixel.
     const Visit visit = [&](DrawnPath& p) {
         p.x = x;

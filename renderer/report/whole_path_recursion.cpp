@@ -3,9 +3,13 @@
 namespace midway {
 namespace {
 
+bool has(const PathSetting& setting, const Strategy& k) {
+    return setting.families.has(family_of(k));
+}
+
 // Sums at the vertices of the camera's subpath; element i belongs to vertex i.
 template <class H>
-std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const mis::Setting& setting) {
+std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const PathSetting& setting) {
     const int last = p.edges();
     std::vector<mis::State> states(last + 1);
     states[1] = mis::start_camera(h, setting.light_subpaths, p.from_camera(1));
@@ -13,13 +17,13 @@ std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const mis::
         states[i] =
             mis::advance(h, states[i - 1],
                          {p.from_camera(i), p.vertices[i - 1].light_g, p.vertices[i - 2].light_w,
-                          p.vertices[i - 1].delta, setting.has({i - 1, 2})});
+                          p.vertices[i - 1].delta, has(setting, {i - 1, 2})});
     return states;
 }
 
 // The same from the light; element j belongs to vertex k - j.
 template <class H>
-std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const mis::Setting& setting) {
+std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const PathSetting& setting) {
     const int last = p.edges();
     std::vector<mis::State> states(last);
     mis::LightStart start;
@@ -27,20 +31,20 @@ std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const mis::S
     start.pdf_a = p.from_light(last - 1);
     start.g_light = p.vertices[last].camera_g;
     start.next_event_ratio = p.next_event / p.emission;
-    start.hittable = p.hittable;
-    states[1] = mis::start_light(h, start, setting);
+    start.hittable = p.hittable && setting.families.emitter_hit;
+    states[1] = mis::start_light(h, start);
     for (int j = 2; j < last; ++j) {
         const int i = last - j;
         states[j] =
             mis::advance(h, states[j - 1],
                          {p.from_light(i), p.vertices[i + 1].camera_g, p.vertices[i + 2].camera_w,
-                          p.vertices[i + 1].delta, setting.has({2, j - 1})});
+                          p.vertices[i + 1].delta, has(setting, {2, j - 1})});
     }
     return states;
 }
 
 template <class H>
-double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const mis::Setting& setting,
+double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting& setting,
              const Strategy& k, const std::vector<mis::State>& from_camera,
              const std::vector<mis::State>& from_light) {
     const int s = k.s;
@@ -48,22 +52,22 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const mis::Settin
     if (k.t == 0)
         return mis::emitter_hit(h, camera,
                                 {c.emission, c.vertices[s - 2].light_w, c.next_event,
-                                 s > 2 && setting.has({s - 1, 1})});
+                                 s > 2 && has(setting, {s - 1, 1})});
     const double towards_camera = l.vertices[s - 1].light_w * c.vertices[s - 1].light_g;
     const double towards_light = c.vertices[s].camera_w * c.vertices[s].camera_g;
     if (s == 1)
         return mis::light_tracing(
             h, from_light[k.t - 1],
-            {towards_light, l.vertices[2].camera_w, setting.has({2, k.t - 1})},
+            {towards_light, l.vertices[2].camera_w, has(setting, {2, k.t - 1})},
             setting.light_subpaths);
     const mis::Side camera_side{towards_camera, c.vertices[s - 2].light_w,
-                                setting.has({s - 1, k.t + 1})};
+                                has(setting, {s - 1, k.t + 1})};
     if (k.t == 1)
         return mis::next_event(
             h, camera, camera_side,
             {c.next_event, c.emission, towards_light, c.hittable && setting.families.emitter_hit});
     const mis::Side light_side{towards_light, l.vertices[s + 1].camera_w,
-                               setting.has({s + 1, k.t - 1})};
+                               has(setting, {s + 1, k.t - 1})};
     return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side);
 }
 
@@ -80,15 +84,14 @@ template <class Real>
 std::vector<double> weights_in(const PathPdfs& camera, const PathPdfs& light,
                                const PathSetting& setting, double exponent) {
     const int last = camera.edges();
-    const mis::Setting inner{setting.families, setting.light_subpaths};
     return mis::with_heuristic<Real>(exponent, [&](const auto& h) {
-        const std::vector<mis::State> from_camera = camera_states(h, camera, inner);
-        const std::vector<mis::State> from_light = light_states(h, light, inner);
+        const std::vector<mis::State> from_camera = camera_states(h, camera, setting);
+        const std::vector<mis::State> from_light = light_states(h, light, setting);
         std::vector<double> weights(last + 1, 0.0);
         for (int s = 1; s <= last + 1; ++s) {
             const Strategy k{s, last + 1 - s};
             if (is_feasible(camera, k, setting) && can_draw(camera, light, k))
-                weights[s - 1] = weigh(h, camera, light, inner, k, from_camera, from_light);
+                weights[s - 1] = weigh(h, camera, light, setting, k, from_camera, from_light);
         }
         return weights;
     });

@@ -1,0 +1,222 @@
+#include "render/pilot.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "render/coverage.h"
+#include "render/pilot_sums.h"
+
+namespace midway {
+namespace {
+
+// As in the trimmed relMSE: a few pixels that no plan can help must not decide.
+constexpr double trimmed_share = 0.001;
+// A plan that needs more kinds of strategy must be so much better.
+constexpr double margin = 0.98;
+// No plan is believed to have less of the full one's error than this: a difference of noisy sums.
+constexpr double least_error = 0.02;
+// Prices, in units of a camera walk's ray. Measured on the project's scenes (tests/README.md).
+struct Prices {
+    double sample = 0.5, camera_ray = 1, next_event = 0.7;
+    double subpath = 0.4, light_ray = 0.9, light_tracing = 0.6, connection = 0.5;
+};
+
+// Plans that make every path the full one makes.
+Candidates find_candidates(const Scene& scene, const Estimator& full) {
+    const SceneFeatures features = scene_features(scene);
+    const auto gaps = [&](const Families& f) {
+        return not_covered(features, f, full.direct_lamps);
+    };
+    const Families& f = full.families;
+    const std::vector<std::string> unavoidable = gaps(f);
+    Candidates c;
+    const Families own{f.emitter_hit, f.next_event, false, false};
+    if (gaps(own) == unavoidable) c.add(own, 0);
+    if (f.light_tracing) {
+        const Families tracing{f.emitter_hit, f.next_event, true, false};
+        if (gaps(tracing) == unavoidable)
+            for (const int quarters : {1, 2, 4, 8}) c.add(tracing, quarters);
+    }
+    if (f.connection) {
+        const Families connecting{f.emitter_hit, f.next_event, false, true};
+        if (f.light_tracing && gaps(connecting) == unavoidable) c.add(connecting, 4);
+        c.add(f, 4);
+        if (f.light_tracing) c.add(f, 8);
+    }
+    return c;
+}
+
+// Without the largest so many.
+double trimmed_sum(std::vector<double>& values, size_t trimmed) {
+    std::sort(values.begin(), values.end());
+    double sum = 0;
+    for (size_t i = 0; i + trimmed < values.size(); ++i) sum += values[i];
+    return sum;
+}
+
+double sum_of_squares(const Energies& e) {
+    double sum = 0;
+    for (const double x : e) sum += x * x;
+    return sum;
+}
+
+struct Relative {
+    std::vector<double> per_sample;  // of a block: from sums to means per pixel and pass
+    std::vector<double> scale;       // 1 / (image^2 + 0.01 mean^2)
+};
+
+Relative relative_scales(const PilotSums& r, const Grid& grid) {
+    std::vector<double> pixels(r.blocks.size(), 0.0);
+    for (int y = grid.crop.y0; y < grid.crop.y1; ++y)
+        for (int x = grid.crop.x0; x < grid.crop.x1; ++x) ++pixels[grid.block(x, y)];
+    Relative relative;
+    double mean = 0;
+    for (const BlockSums& b : r.blocks) mean += b.image / pilot_samples;
+    for (size_t b = 0; b < r.blocks.size(); ++b) {
+        const double per_sample = double(grid.crop.area()) / (pilot_samples * pixels[b]);
+        const double denominator = sqr(r.blocks[b].image * per_sample) + 0.01 * sqr(mean);
+        relative.per_sample.push_back(per_sample);
+        relative.scale.push_back(denominator > 0 ? 1 / denominator : 0);
+    }
+    return relative;
+}
+
+// The relative squared error of each plan, per sample of a pixel; the last element is that of the
+// full one. A camera sample's contributions have the variance E[x^2] - E[x]^2; splats are so rare
+// in a pixel that theirs is E[x^2].
+std::vector<double> relative_errors(const PilotSums& r, const Grid& grid, int candidates) {
+    const Relative relative = relative_scales(r, grid);
+    std::vector<double> squares;
+    for (const Pair& p : r.pairs) squares.push_back(p.square * relative.scale[p.block]);
+    double full = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
+    for (size_t b = 0; b < r.blocks.size(); ++b)
+        full += r.blocks[b].splat_square * relative.scale[b];
+    std::vector<double> errors;
+    for (int i = 0; i < candidates; ++i) {
+        std::vector<double> excess;
+        for (size_t b = 0; b < r.blocks.size(); ++b) {
+            const BlockSums& sums = r.blocks[b];
+            const double means = sum_of_squares(sums.energy[i]) - sum_of_squares(sums.full_energy);
+            excess.push_back(relative.scale[b] * (sums.excess[i] - means * relative.per_sample[b]));
+        }
+        const double more = trimmed_sum(excess, size_t(trimmed_share * double(excess.size())));
+        errors.push_back(std::max(least_error * full, full + more) / pilot_samples);
+    }
+    errors.push_back(full / pilot_samples);
+    return errors;
+}
+
+double cost_of(const Plan& p, const PilotSums& n) {
+    const Prices price;
+    std::array<double, 4> rays{};
+    for (int edges = 1; strategy_count(edges) < n.shadow_rays.size(); ++edges)
+        for (int s = 1; s <= edges + 1; ++s) {
+            const Strategy k{s, edges + 1 - s};
+            rays[size_t(family_of(k))] += double(n.shadow_rays[strategy_index(k)]);
+        }
+    const double camera = price.sample * pilot_samples +
+                          price.camera_ray * double(n.camera.closest) +
+                          price.next_event * rays[size_t(Family::next_event)];
+    double light = price.subpath * pilot_samples + price.light_ray * double(n.light.closest);
+    if (p.families.light_tracing)
+        light += price.light_tracing * rays[size_t(Family::light_tracing)];
+    const double connections =
+        p.families.connection ? price.connection * rays[size_t(Family::connection)] : 0;
+    return camera + light_share(p) * light + connections;
+}
+
+}  // namespace
+
+const PlanForecast& PlanDecision::chosen() const {
+    return *std::find_if(forecasts.begin(), forecasts.end(),
+                         [&](const PlanForecast& f) { return f.plan == plan; });
+}
+
+namespace {
+
+// Plans with connections end their walks by roulette earlier than others (make_estimator), which
+// changes noise and cost alike: each kind is measured with its own, from the same random numbers.
+struct Run {
+    PilotSums sums;
+    std::vector<double> errors;  // relative_errors()
+};
+std::optional<Run> run_pilot(const Estimator& e, const Candidates& candidates, int threads,
+                             const RenderControl* control) {
+    const Grid grid(e.crop);
+    std::optional<PilotSums> sums = sample_pilot(e, grid, candidates, threads, control);
+    if (!sums) return {};
+    Run run{std::move(*sums), {}};
+    run.errors = relative_errors(run.sums, grid, candidates.count);
+    return run;
+}
+
+}  // namespace
+
+std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescription& camera,
+                                        const RenderSettings& settings, int threads,
+                                        const RenderControl* control) {
+    const auto start = std::chrono::steady_clock::now();
+    const Estimator e = pilot_estimator(scene, camera, settings);
+    const Candidates candidates = find_candidates(scene, e);
+    const Plan full{e.families, e.families.needs_light_subpaths() ? 4 : 0};
+    PlanDecision decision{full, {}};
+    if (candidates.count < 2) {
+        decision.forecasts.push_back({full});
+        return decision;
+    }
+    Estimator unconnected = e;
+    unconnected.roulette_start = roulette_start(Families{true, true, true, false});
+    const std::optional<Run> a = run_pilot(e, candidates, threads, control);
+    const std::optional<Run> b = run_pilot(unconnected, candidates, threads, control);
+    if (!a || !b) return {};
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < candidates.count; ++i) {
+        PlanForecast f{candidates.plans[i]};
+        const Run& run = f.plan.families.connection ? *a : *b;
+        f.cost = cost_of(f.plan, run.sums) / cost_of(full, a->sums);
+        // A black image has no error to compare: the cheapest plan then.
+        f.error = a->errors.back() > 0 ? run.errors[i] / a->errors.back() : 1;
+        if (!(f.error > 0)) f.error = std::numeric_limits<double>::infinity();
+        if (f.time() < margin * best) {
+            best = f.time();
+            decision.plan = f.plan;
+        }
+        decision.forecasts.push_back(f);
+    }
+    decision.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return decision;
+}
+
+std::string describe(const Plan& plan) {
+    const Families& f = plan.families;
+    if (!f.needs_light_subpaths()) return "path tracing, no light subpaths";
+    std::string what = "all families";
+    if (!f.connection) what = "path and light tracing, no connections";
+    if (!f.light_tracing) what = "connections, no light tracing";
+    constexpr const char* numbers[] = {"no", "a quarter of a", "half a", "", "one", "", "", "",
+                                       "two"};
+    return fmt::format("{}, {} light subpath{} per pixel", what, numbers[plan.light_quarters],
+                       plan.light_quarters > 4 ? "s" : "");
+}
+
+std::string describe(const PlanDecision& decision) {
+    const PlanForecast& f = decision.chosen();
+    if (decision.forecasts.size() < 2)
+        return describe(f.plan) + ": no other plan covers what it covers";
+    return fmt::format("{}; expected {:.2g} of the time of plain bdpt for the same error",
+                       describe(f.plan), f.time());
+}
+
+std::optional<PlanDecision> choose_plan(const Scene& scene, const CameraDescription& camera,
+                                        RenderSettings& settings, int threads) {
+    if (settings.technique != Technique::automatic || settings.plan) return {};
+    std::optional<PlanDecision> decision = decide_plan(scene, camera, settings, threads);
+    settings.plan = decision->plan;
+    return decision;
+}
+
+}  // namespace midway
