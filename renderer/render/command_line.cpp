@@ -65,7 +65,7 @@ void add_scene(Words& w, const SceneOptions& o) {
 
 void add_settings(Words& w, const RenderSettings& s) {
     const RenderSettings usual;
-    if (s.technique != usual.technique)
+    if (s.technique != Technique::automatic)
         w.option("--technique", std::string(to_string(s.technique)));
     if (s.exponents != usual.exponents) w.option("--exponent", numbers(s.exponents));
     if (s.families) w.option("--families", to_string(*s.families));

@@ -18,7 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double longest_slice_seconds = 0.5;
 constexpr double points_per_doubling = 4;
-constexpr double keep_every_seconds = 60;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -84,10 +83,19 @@ Runner open_runner(const ConvergencePlan& plan, const TechniqueChoice& t, int se
     return r;
 }
 
+// The mean of each half of the image, which the tests of bias need when the curve ends.
+void take_luminances(Runner& r) {
+    const PassCounts n = r.run.passes;
+    if (!r.renderer || n.total() == 0) return;
+    r.run.luminance_a = half_luminance(r.renderer->film(), n, 0);
+    r.run.luminance_b = n.b > 0 ? half_luminance(r.renderer->film(), n, 1) : unknown_number;
+}
+
 // Keeps what has been done since the last time. The points are written last: a film without its
 // points is left aside.
 void keep(Runner& r, const ConvergencePlan& plan) {
     if (!r.changed) return;
+    take_luminances(r);
     write_film(r.path + ".film", film_header(*plan.scene, r.settings, *r.renderer), *r.renderer);
     write_curve(r.path, r.key, r.run);
     r.changed = false;
@@ -101,14 +109,6 @@ void measure(Runner& r, const ConvergencePlan& plan) {
     r.run.curve.points.push_back(
         measure_error(*plan.reference, film, n, {r.run.seconds, r.run.cpu_seconds}, last));
     r.run.metric_seconds += seconds_since(start);
-}
-
-// The mean of each half of the image, which the tests of bias need when the curve ends.
-void take_luminances(Runner& r) {
-    const PassCounts n = r.run.passes;
-    if (!r.renderer || n.total() == 0) return;
-    r.run.luminance_a = half_luminance(r.renderer->film(), n, 0);
-    r.run.luminance_b = n.b > 0 ? half_luminance(r.renderer->film(), n, 1) : unknown_number;
 }
 
 // Whole passes until the curve has rendered for so many seconds, one at least; then the error,
@@ -150,7 +150,7 @@ bool take_turns(const ConvergencePlan& plan, const CompareHooks& hooks,
                 std::min(next_grid_time(before, plan), before + longest_slice_seconds));
         hooks.progress(stage + ", " + plan.techniques[behind - runners.begin()].label,
                        std::min(behind->run.seconds, plan.seconds) - before);
-        if (seconds_since(kept) > keep_every_seconds) {
+        if (seconds_since(kept) > plan.keep_every_seconds) {
             for (Runner& r : runners) keep(r, plan);
             kept = Clock::now();
         }
@@ -176,11 +176,11 @@ bool run_seed(const ConvergencePlan& plan, const CompareHooks& hooks, int seed,
                    "seed " + std::to_string(seed + 1) + " of " + std::to_string(plan.seeds));
     for (size_t i = 0; i < runners.size(); ++i) {
         Runner& r = runners[i];
-        if (r.changed) {
-            // What was done since the last time of the grid is worth a point too.
-            if (r.run.curve.points.empty() || r.run.curve.points.back().spp != r.run.passes.total())
-                measure(r, plan);
-            take_luminances(r);
+        // What was done since the last time of the grid is worth a point too.
+        if (r.renderer && r.run.passes.total() > 0 &&
+            (r.run.curve.points.empty() || r.run.curve.points.back().spp != r.run.passes.total())) {
+            measure(r, plan);
+            r.changed = true;
         }
         keep(r, plan);
         r.run.curve.complete = is_complete(r.run, plan);

@@ -46,6 +46,7 @@ struct ConvergencePlan {
     int seeds = 0;       // the first is that of the settings, the others follow it
     int threads = 0;
     std::string folder;  // of the films and points that are kept
+    double keep_every_seconds = 60;
 };
 
 // One seed of one technique, as far as it went.
