@@ -130,6 +130,10 @@ bool take_images(App& app, Engine& engine) {
     auto channels = engine.live.channels();
     if (snapshot == app.snapshot && channels == app.channels) return false;
     app.snapshot = std::move(snapshot);
+    // What `auto` decided belongs to what its files say.
+    if (app.snapshot && app.snapshot->plan)
+        for (SubmittedJob& job : engine.jobs)
+            if (job.number == app.snapshot->job) job.settings.plan = app.snapshot->plan;
     app.channels = std::move(channels);
     if (app.snapshot && !app.snapshot->error.empty()) app.document.error = app.snapshot->error;
     return true;

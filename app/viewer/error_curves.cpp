@@ -51,8 +51,8 @@ void add_to(std::vector<CurvePoint>& points, const CurvePoint& p) {
 std::string curve_label(const CurveMaker& m) {
     std::string label(to_string(m.technique));
     // Light tracing has one way to make each path: nothing to weigh.
-    const bool weighs =
-        m.technique == Technique::bdpt || (m.technique == Technique::path && m.exponent != 2);
+    const bool usual = m.technique == Technique::path || m.technique == Technique::automatic;
+    const bool weighs = m.technique == Technique::bdpt || (usual && m.exponent != 2);
     if (weighs) label += fmt::format(":{:.4g}", m.exponent);
     if (m.sampler != SamplerKind::sobol) label += fmt::format(", {}", to_string(m.sampler));
     if (m.seed != 0) label += fmt::format(", seed {}", m.seed);

@@ -150,6 +150,8 @@ const auto bindings = std::to_array<KeyBinding>({
      [](A a) { return choose_technique(a, Technique::light); }},
     {how, GLFW_KEY_3, 0, "3", "bidirectional",
      [](A a) { return choose_technique(a, Technique::bdpt); }},
+    {how, GLFW_KEY_4, 0, "4", "auto: what the scene needs",
+     [](A a) { return choose_technique(a, Technique::automatic); }},
     {how, GLFW_KEY_N, 0, "N", "exponent 0: naive", [](A a) { return choose_exponent(a, 0); }},
     {how, GLFW_KEY_B, 0, "B", "exponent 1: balance", [](A a) { return choose_exponent(a, 1); }},
     {how, GLFW_KEY_P, 0, "P", "exponent 2: power", [](A a) { return choose_exponent(a, 2); }},

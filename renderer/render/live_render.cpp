@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/live_pace.h"
+#include "render/pilot.h"
 
 namespace midway {
 namespace {
@@ -101,16 +102,39 @@ void LiveRender::fail(Running& r, const std::string& error) {
     show(r, std::move(snapshot));
 }
 
+// What `auto` renders with. Coarse images make do with the plan of the image before, so that a drag
+// does not wait; the image itself has the plan that `midway render` would decide on. False where the
+// job was replaced.
+bool LiveRender::plan(Running& r) {
+    LiveJob& job = r.pending.job;
+    if (job.settings.technique != Technique::automatic) return true;
+    job.settings.plan.reset();
+    if (r.scale > 1) {
+        if (plan_of_.lock() == job.scene) job.settings.plan = plan_;
+        return true;
+    }
+    const std::optional<PlanDecision> decision =
+        decide_plan(*job.scene, job.camera, job.settings, r.threads, &control_);
+    if (!decision) return false;
+    job.settings.plan = plan_ = decision->plan;
+    plan_in_words_ = describe(*decision);
+    plan_of_ = job.scene;
+    return true;
+}
+
 // Shows coarse images down to the first pass of full size. False where the job was replaced.
 bool LiveRender::refine(Running& r) {
     const LiveJob& job = r.pending.job;
     r.scale = last_first_scale_ = first_scale(job);
+    // Something is seen while the pilot runs.
+    if (job.settings.technique == Technique::automatic) r.scale = std::max(r.scale, 2);
     for (;;) {
         {
             const std::lock_guard lock(mutex_);
             if (superseded() && first_out_) return false;
             retired_.push_back(std::move(r.renderer));
         }
+        if (!plan(r)) return false;
         r.view = scaled_view(job, r.scale);
         RendererOptions options;
         options.threads = r.threads;
@@ -243,6 +267,10 @@ bool LiveRender::publish(Running& r, bool finished) {
     s->crop = job.settings.crop.value_or(PixelRect{0, 0, s->width, s->height});
     s->placement = r.view.placement;
     s->exponents = job.settings.exponents;
+    if (r.scale == 1 && job.settings.plan) {
+        s->plan = job.settings.plan;
+        s->plan_in_words = plan_in_words_;
+    }
     s->images = std::move(resolved->images);
     s->variances = std::move(resolved->variances);
     s->passes = renderer.passes();

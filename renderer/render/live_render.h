@@ -31,6 +31,8 @@ struct Snapshot {
     PixelRect crop;             // of the job
     ImagePlacement placement;   // where the images below lie in the whole image
     std::vector<double> exponents;
+    std::optional<Plan> plan;  // of `auto`
+    std::string plan_in_words;
     // One of each per exponent, from the same paths. Variances (of the mean, resolve_variance) are
     // null with fewer than two passes.
     std::vector<std::shared_ptr<const Image>> images, variances;
@@ -101,6 +103,7 @@ class LiveRender {
     void coordinate();
     void render_job(Running& r);
     bool refine(Running& r);
+    bool plan(Running& r);
     void accumulate(Running& r);
     bool render(Running& r, std::uint64_t passes);
     bool take_request(Running& r);
@@ -123,6 +126,10 @@ class LiveRender {
     LiveCost cost_;
     ImagePool pool_;
     int last_first_scale_ = 0;
+    // The last plan of `auto`, in words, and the scene that it was made for: coarse images use it.
+    std::optional<Plan> plan_;
+    std::string plan_in_words_;
+    std::weak_ptr<const Scene> plan_of_;
     std::jthread cleaner_;  // gives back what finished jobs held
 
     mutable std::mutex mutex_;

@@ -75,6 +75,7 @@ class Files(WindowTest):
         for name, words in {
                 "as it comes": "",
                 "technique": "set technique path\nset exponent 1\nset max-bounces 3\nset seed 7",
+                "auto": "set technique auto\nset max-bounces 5",
                 "camera": "camera orbit 23.7 -11\ncamera dolly 0.83\nset fov 41.3",
                 "lens": "set aperture 0.031\nset focus 4.7",
                 "light": "set lamp-strength 0.3\nset sky 0.1,0.2,0.37\nset sky-strength 1.7",

@@ -140,6 +140,9 @@ class Desktop:
             self.close()
             raise RuntimeError("Xvfb found no display number")
         self.environment = dict(environment, DISPLAY=f":{number}")
+        if not wait_for(lambda: self.hand("getdisplaygeometry")):
+            self.close()
+            raise RuntimeError(f"Xvfb does not answer on display {number}")
 
     def hand(self, *arguments):
         """xdotool's answer, empty where it failed."""
@@ -189,9 +192,15 @@ class HandsTest(WindowTest):
         self.hand("key", key)
 
     def drag(self, x, y, dx, dy):
-        self.hand("mousemove", x, y, "mousedown", 1)
+        """As a hand drags: a busy window must have frames between press, moves and release."""
+        self.hand("mousemove", x, y)
+        time.sleep(0.2 * slow)
+        self.hand("mousedown", 1)
+        time.sleep(0.2 * slow)
         for step in range(1, 9):
             self.hand("mousemove", x + dx * step // 8, y + dy * step // 8)
+            time.sleep(0.03 * slow)
+        time.sleep(0.2 * slow)
         self.hand("mouseup", 1)
 
     def open_in_steps(self, lines, title, waits=()):

@@ -74,9 +74,8 @@ void draw_cells(App& app) {
     const RenderSettings& settings = app.render.settings;
     const theme::Color& technique_color =
         settings.technique == Technique::light ? theme::light : theme::camera;
-    const std::string name = settings.technique == Technique::bdpt   ? "BDPT"
-                             : settings.technique == Technique::path ? "Path"
-                                                                     : "Light";
+    constexpr const char* names[] = {"Path", "Light", "BDPT", "Auto"};
+    const char* name = names[static_cast<size_t>(settings.technique)];
     cell(technique_color, fmt::format("{}, b = {:.3g}", name, app.render.exponent),
          "Technique and exponent of the MIS weights", 7);
     cell(theme::text, state_in_words(app, s), "Space pauses, R begins again", 5.2f);

@@ -12,7 +12,7 @@
 namespace midway {
 namespace {
 
-constexpr std::array<ui::Choice, 3> techniques = {{
+constexpr std::array<ui::Choice, 4> techniques = {{
     {"Path",
      "Path tracing: walks start at the camera; lights are hit by chance (emitter) or aimed at from "
      "every surface (next event). [1]",
@@ -26,6 +26,10 @@ constexpr std::array<ui::Choice, 3> techniques = {{
      "Bidirectional path tracing: walks from both ends, joined in every possible way, each way "
      "weighted by how well it finds that path (MIS). [3]",
      theme::camera, theme::light},
+    {"Auto",
+     "Bidirectional path tracing without what this scene does not need: a short pilot finds out "
+     "which strategies and how many walks from the lights lower the error fastest. [4]",
+     theme::camera, theme::light},
 }};
 
 const char* in_one_line(Technique t) {
@@ -36,6 +40,8 @@ const char* in_one_line(Technique t) {
             return "Walks from the lights find the camera.";
         case Technique::bdpt:
             return "Walks from both ends, joined in every way.";
+        case Technique::automatic:
+            return "As much of BDPT as this scene needs.";
     }
     return "";
 }
@@ -121,6 +127,9 @@ Change draw_technique(App& app) {
     if (ui::segmented("technique", techniques, technique))
         change |= choose_technique(app, static_cast<Technique>(technique));
     ui::wrapped(theme::text_dim, in_one_line(app.render.settings.technique));
+    if (app.render.settings.technique == Technique::automatic && app.snapshot &&
+        !app.snapshot->plan_in_words.empty())
+        ui::wrapped(theme::text, app.snapshot->plan_in_words);
     draw_not_covered(app);
     change |= draw_exponent(app);
     const bool open = app.display.pyramid.open;

@@ -18,26 +18,37 @@ struct Step {
     const char* text;
 };
 
-constexpr std::array<Step, 5> steps = {{
+constexpr std::array<Step, 8> steps = {{
     {"", "This is Midway",
      "A head of solid glass, lit by one small lamp. The image refines while you look at it. Drag "
-     "to "
-     "walk around the head, turn the wheel to come closer, double-click to set what you turn "
-     "about."},
-    {"Technique", "Three ways to find light",
-     "Press 1: path tracing finds the bright caustic in front of the head only by luck. Press 2: "
-     "light tracing draws it at once but leaves the glass black. Press 3: bidirectional path "
-     "tracing "
-     "joins walks from both ends."},
+     "to walk around the head, turn the wheel to come closer, double-click to set what you turn "
+     "about. The bright pattern in front of the head is its caustic: light that went through the "
+     "glass. Most renderers find it only by luck."},
+    {"Technique", "Ways to find light",
+     "Press 1: path tracing gets the caustic as noise. Press 2: light tracing draws it at once but "
+     "leaves the glass black. Press 3: bidirectional path tracing joins walks from both ends. "
+     "Press 4: auto leaves out what this scene does not need."},
     {"Technique", "What the weights do",
      "Each path can be found in many ways; the exponent decides how they are weighted. Go from "
-     "power "
-     "2 to naive 0 and see the noise come. Tick \"Same paths\" and switching is instant: the "
-     "weights "
-     "alone change."},
-    {"Display", "Look closer",
-     "Exposure, tone curves, false colour and the estimated error of every pixel never restart the "
-     "render. Ctrl and the wheel zoom into the pixels until their values can be read."},
+     "power 2 to naive 0 and see the noise come. Tick \"Same paths\" and switching is instant: "
+     "the weights alone change."},
+    {"Technique", "The strategy pyramid",
+     "Shift+P shows every way to find light as a picture of its own, a row for each number of "
+     "bounces, from the camera's side to the light's. Click a cell to see it large, Shift+click "
+     "adds another. \"Bare\" shows what it would give alone, \"Noise\" who makes the grain. The "
+     "last cell of each row, light tracing, holds the caustic."},
+    {"", "Inside a pixel",
+     "Press I and click into the caustic: one sample is computed again, its walks are drawn in "
+     "teal and amber, and bars show what each strategy would have given and with what weight. "
+     "Shift+I finds the brightest sample of the image: who made that firefly?"},
+    {"Compare", "A against B",
+     "Shift+Y keeps the image as A. Change the technique, then press H: a line to drag parts A "
+     "from B, H again shows their difference. \"Error over time\" draws a curve for every "
+     "technique that you try."},
+    {"Lights", "Change the scene",
+     "Switch lamps off, give them another colour or strength. Press U and click an object to edit "
+     "what it is made of. Ctrl+Z takes back. Exposure, tone curves and channels, under Display, "
+     "never restart the render."},
     {"Files", "Bring your own scene",
      "Drop a .gltf or .glb file on the window, or an .hdr as its sky. The gallery holds seven more "
      "scenes. F1 shows all keys, Tab hides the panels."},
