@@ -36,6 +36,7 @@ ALLOWED = {
     ("renderer/shading/microfacet.h", "smooth_alpha = 1e-3f"): "width of a lobe, a pure number",
     ("renderer/shading/microfacet.h", "std::max(h.z, 1e-12f)"): "cosine of a facet's normal",
     ("renderer/shading/texture.cpp", "0.04045"): "the sRGB curve",
+    ("renderer/render/pilot.cpp", "trimmed_share = 0.001"): "a share of samples and blocks",
     ("renderer/scene/build_lights.cpp", "least_mean = 1e-3"): "relative to the emission",
     ("renderer/scene/camera.cpp", "std::max(1e-3f, glm::dot"): "default focus of a lens that looks "
                                                                "away from a scene of radius 1",
