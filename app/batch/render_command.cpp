@@ -124,10 +124,11 @@ double render_watched(ProgressiveRenderer& r, const WaveLimits& all, ErrorWatch&
 }
 
 RunFigures render_all(const RenderCommand& c, const PreparedScene& p, ProgressiveRenderer& r,
-                      ErrorWatch& watch) {
+                      ErrorWatch& watch, const std::optional<PlanDecision>& decision) {
     Progress progress(c.quiet);
     Checkpoint checkpoint(c.checkpoint, p, c.settings);
     checkpoint.resume(r);
+    if (decision && !c.quiet) fmt::print(stderr, "midway: auto: {}\n", describe(*decision));
     const std::clock_t cpu = std::clock();
     WaveLimits limits;
     limits.passes = c.spp;
@@ -141,6 +142,7 @@ RunFigures render_all(const RenderCommand& c, const PreparedScene& p, Progressiv
     });
     checkpoint.write(r);
     RunFigures figures;
+    figures.decision = decision;
     figures.seconds_render = seconds;
     figures.cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
     figures.interrupted = interrupted();
@@ -158,13 +160,11 @@ int run(RenderCommand& c) {
     if (!c.quiet) print_warnings(p.warnings);
     const std::optional<PlanDecision> decision =
         choose_plan(*p.scene, p.camera, c.settings, c.renderer.threads);
-    if (decision && !c.quiet) fmt::print(stderr, "midway: auto: {}\n", describe(*decision));
     if (!c.debug_pixel.empty()) return debug(c, p);
     ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
     if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
     catch_interrupt();
-    RunFigures figures = render_all(c, p, r, watch);
-    figures.decision = decision;
+    const RunFigures figures = render_all(c, p, r, watch, decision);
     write_outputs(c.outputs, p, c.settings, r, figures);
 
     const RenderStatistics s = r.statistics();

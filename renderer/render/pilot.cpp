@@ -160,6 +160,7 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
                                         const RenderSettings& settings, int threads,
                                         const RenderControl* control) {
     const auto start = std::chrono::steady_clock::now();
+    make_estimator(scene, camera, settings);  // throws what the pilot does not look at
     const Estimator e = pilot_estimator(scene, camera, settings);
     const Candidates candidates = find_candidates(scene, e);
     const Plan full{e.families, e.families.needs_light_subpaths() ? 4 : 0};

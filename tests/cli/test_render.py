@@ -150,13 +150,25 @@ class Choices(CliTest):
         self.assertNotEqual(self.chunks("--camera", "low"), self.chunks())
 
     def test_options_that_change_the_image(self):
-        plain = self.chunks()
+        plain = self.chunks("--technique", "bdpt")
         for option in [("--look-at", "0,2,3,0,0,0"), ("--fov", 20), ("--sky", "1,1,1"),
                        ("--lamp-strength", 2), ("--max-bounces", 1), ("--exponent", 1),
                        ("--technique", "path"), ("--families", "emitter,next-event"),
                        ("--only", "2,1"), ("--sampler", "independent")]:
             with self.subTest(option=option):
-                self.assertNotEqual(plain, self.chunks(*option))
+                technique = [] if "--technique" in option else ["--technique", "bdpt"]
+                self.assertNotEqual(plain, self.chunks(*technique, *option))
+
+    def test_auto_is_the_path_tracer_where_nothing_more_is_needed(self):
+        plain = self.chunks("--technique", "path")
+        self.assertEqual(plain, self.chunks())
+        self.assertEqual(plain, self.chunks("--technique", "auto", "--threads", 1))
+        done = self.render("-o", self.folder / "told.exr", "--spp", 1, "--stats",
+                           self.folder / "told.json", "--technique", "auto")
+        self.assertIn("auto: path tracing, no light subpaths", done.stderr)
+        plan = json.loads((self.folder / "told.json").read_text())["plan"]
+        self.assertEqual(0, plan["light_subpaths_per_pixel"])
+        self.assertGreater(len(plan["weighed_up"]), 3)
 
     def test_no_bounces_show_emitters_alone(self):
         pixels = ExrFile(self.render_exr("x", "--spp", 2, "--max-bounces", 0)).pixels()
@@ -180,7 +192,7 @@ class DebugPixel(CliTest):
 
     def test_writes_the_sample_out_in_full(self):
         # Names of vertices, what each path gave, and weights of all strategies that sum to one.
-        lines = self.replay("10,12,3", "--exponent", "0,2").stdout.splitlines()
+        lines = self.replay("10,12,3", "--exponent", "0,2", "--technique", "bdpt").stdout.splitlines()
         self.assertRegex(lines[0], r"^pixel 10,12 sample 3 light subpath \d+$")
         self.assertRegex(lines[1], r"^  C0 camera at .* pdf_fwd - ")
         self.assertTrue(any(re.match(r"  L0 .*throughput", line) for line in lines), lines)
