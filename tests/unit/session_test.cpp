@@ -284,6 +284,9 @@ TEST(CommandLine, SaysOnlyWhatDiffers) {
     Session s;
     s.scene.path = "idol.glb";
     EXPECT_EQ(command_line(s.scene, s.settings, s.limits, "out.exr"),
+              "midway render idol.glb -o out.exr --technique bdpt");
+    s.settings.technique = Technique::automatic;  // what render takes where nothing is said
+    EXPECT_EQ(command_line(s.scene, s.settings, s.limits, "out.exr"),
               "midway render idol.glb -o out.exr");
     s.settings.width = 640;
     s.limits.spp = 16;
@@ -297,6 +300,7 @@ TEST(CommandLine, QuotesForTheShell) {
     EXPECT_EQ(shell_quoted("a b"), "'a b'");
     EXPECT_EQ(shell_quoted("it's $HOME"), "'it'\\''s $HOME'");
     Session s;
+    s.settings.technique = Technique::automatic;
     s.scene.path = "-rf.glb";
     s.scene.look_at = {-1, 0, 0, 0, 0, 0};
     EXPECT_EQ(command_line(s.scene, s.settings, s.limits, "--x.exr"),
@@ -312,7 +316,9 @@ TEST(CommandLine, NumbersComeBackToTheBit) {
         SceneOptions o;
         o.path = "a.glb";
         o.fov_degrees = x;
-        const std::string word = command_words(o, {}, {}, "o.exr").back();
+        RenderSettings settings;
+        settings.technique = Technique::automatic;
+        const std::string word = command_words(o, settings, {}, "o.exr").back();
         const std::string text = word.substr(word.find('=') == std::string::npos ? 0 : 6);
         EXPECT_EQ(static_cast<double>(std::strtold(text.c_str(), nullptr)), x) << word;
     }
