@@ -129,15 +129,6 @@ double cost_of(const Plan& p, const PilotSums& n) {
     return camera + light_share(p) * light + connections;
 }
 
-}  // namespace
-
-const PlanForecast& PlanDecision::chosen() const {
-    return *std::find_if(forecasts.begin(), forecasts.end(),
-                         [&](const PlanForecast& f) { return f.plan == plan; });
-}
-
-namespace {
-
 // Plans with connections end their walks by roulette earlier than others (make_estimator), which
 // changes noise and cost alike: each kind is measured with its own, from the same random numbers.
 struct Run {
@@ -156,6 +147,11 @@ std::optional<Run> run_pilot(const Estimator& e, const Candidates& candidates, i
 
 }  // namespace
 
+const PlanForecast& PlanDecision::chosen() const {
+    return *std::find_if(forecasts.begin(), forecasts.end(),
+                         [&](const PlanForecast& f) { return f.plan == plan; });
+}
+
 std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescription& camera,
                                         const RenderSettings& settings, int threads,
                                         const RenderControl* control) {
@@ -172,7 +168,10 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
     Estimator unconnected = e;
     unconnected.roulette_start = roulette_start(Families{true, true, true, false});
     const std::optional<Run> a = run_pilot(e, candidates, threads, control);
-    const std::optional<Run> b = run_pilot(unconnected, candidates, threads, control);
+    // Where the full plan does not connect either, it would be the same run again.
+    const std::optional<Run> b = unconnected.roulette_start == e.roulette_start
+                                     ? a
+                                     : run_pilot(unconnected, candidates, threads, control);
     if (!a || !b) return {};
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0; i < candidates.count; ++i) {
