@@ -5,13 +5,6 @@
 namespace midway {
 namespace {
 
-void filter(const Gl& gl, GLint kind) {
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, kind);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, kind);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
 // A rectangle of the target with the origin at its upper left corner as a scissor.
 void scissor(const Gl& gl, const Rect& r, float scale, const ivec2& target) {
     const auto x0 = static_cast<int>(std::lround(r.lower.x * scale));
@@ -67,7 +60,7 @@ bool Display::upload(Layer& layer, const std::shared_ptr<const Image>& image) {
     if (size != layer.values_size) {
         gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT,
                        image->pixels.data());
-        filter(gl_, GL_NEAREST);
+        set_filter(gl_, GL_NEAREST);
         layer.values_size = size;
     } else {
         gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGB, GL_FLOAT,
@@ -82,7 +75,7 @@ void Display::colour(Layer& layer, const ivec2& size, const DisplayMaths& maths)
         gl_.BindTexture(GL_TEXTURE_2D, *layer.colours);
         gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size.x, size.y, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                        nullptr);
-        filter(gl_, GL_LINEAR);
+        set_filter(gl_, GL_LINEAR);
         gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                                  *layer.colours, 0);
         layer.colours_size = size;
@@ -134,7 +127,7 @@ void Display::draw_layer(const App& app, const Target& target, const Layer& laye
     gl_.UseProgram(*image_program_);
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, *layer.colours);
-    filter(gl_, crisp ? GL_NEAREST : GL_LINEAR);
+    set_filter(gl_, crisp ? GL_NEAREST : GL_LINEAR);
     gl_.Uniform1i(gl_.GetUniformLocation(*image_program_, "image"), 0);
     gl_.Uniform4f(gl_.GetUniformLocation(*image_program_, "rectangle"),
                   place.lower.x * to_clip.x - 1, 1 - place.lower.y * to_clip.y,

@@ -59,6 +59,13 @@ GlHandle make_texture(const Gl& gl) {
     return {gl, name, [](const Gl& g, GLuint n) { g.DeleteTextures(1, &n); }};
 }
 
+void set_filter(const Gl& gl, GLint kind) {
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, kind);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, kind);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 GlHandle make_buffer(const Gl& gl) {
     GLuint name = 0;
     gl.GenBuffers(1, &name);

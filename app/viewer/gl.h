@@ -109,6 +109,8 @@ class GlHandle {
 };
 
 GlHandle make_texture(const Gl& gl);
+// Of the texture that is bound: GL_NEAREST or GL_LINEAR between its texels, the last one beyond.
+void set_filter(const Gl& gl, GLint kind);
 GlHandle make_buffer(const Gl& gl);
 GlHandle make_vertex_array(const Gl& gl);
 GlHandle make_framebuffer(const Gl& gl);

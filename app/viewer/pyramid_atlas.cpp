@@ -3,16 +3,6 @@
 #include <cmath>
 
 namespace midway {
-namespace {
-
-void smooth(const Gl& gl, GLint kind) {
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, kind);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, kind);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
-}  // namespace
 
 PyramidAtlas::PyramidAtlas(const Gl& gl)
     : gl_(gl),
@@ -55,7 +45,7 @@ void PyramidAtlas::upload(const Image& image) {
     if (size != values_size_) {
         gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, size.x, size.y, 0, GL_RGB, GL_FLOAT,
                        image.pixels.data());
-        smooth(gl_, GL_NEAREST);
+        set_filter(gl_, GL_NEAREST);
         values_size_ = size;
     } else {
         gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.x, size.y, GL_RGB, GL_FLOAT,
@@ -69,7 +59,7 @@ void PyramidAtlas::colour(const App& app, const StrategySnapshot& s) {
         gl_.BindTexture(GL_TEXTURE_2D, *colours_);
         gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, values_size_.x, values_size_.y, 0, GL_RGBA,
                        GL_UNSIGNED_BYTE, nullptr);
-        smooth(gl_, GL_LINEAR);
+        set_filter(gl_, GL_LINEAR);
         gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *colours_, 0);
         colours_size_ = values_size_;
     }

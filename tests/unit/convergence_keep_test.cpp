@@ -4,16 +4,11 @@
 #include "render/renderer.h"
 #include "report/convergence.h"
 #include "report/reference.h"
+#include "support/assets.h"
 #include "support/temp_dir.h"
 
 namespace midway::test {
 namespace {
-
-PreparedScene cornell() {
-    SceneOptions o;
-    o.path = std::string(MIDWAY_SOURCE_DIR) + "/assets/cornell.glb";
-    return prepare_scene(o);
-}
 
 RenderSettings small(Technique technique) {
     RenderSettings s;
@@ -34,7 +29,7 @@ void expect_luminances(const ConvergenceRun& run, int seeds) {
 
 // A curve that was complete when all were kept had no mean, and every technique looked black.
 TEST(ConvergenceRun, KeepsTheMeansOfCurvesThatEndBeforeOthers) {
-    const PreparedScene scene = cornell();
+    const PreparedScene scene = prepare_scene(of_asset("cornell.glb"));
     ProgressiveRenderer r(scene.scene, scene.camera, small(Technique::bdpt), {.threads = 1});
     r.render_passes(64);
     const FilmPart part{&r.film(), r.counts()};

@@ -1,19 +1,15 @@
 // Other wishes for a scene that is loaded: what can be shared is shared, and the result is the one
 // of loading anew.
+#include "render/prepare.h"
+
 #include <gtest/gtest.h>
 
-#include "render/prepare.h"
 #include "render/renderer.h"
+#include "support/assets.h"
 #include "support/scenes.h"
 
 namespace midway::test {
 namespace {
-
-SceneOptions of_asset(const std::string& name) {
-    SceneOptions o;
-    o.path = std::string(MIDWAY_SOURCE_DIR) + "/assets/" + name;
-    return o;
-}
 
 std::vector<float> pixels(const PreparedScene& p) {
     ProgressiveRenderer r(p.scene, p.camera, settings(Technique::bdpt, 12, 4), {});

@@ -11,16 +11,11 @@
 
 #include "render/prepare.h"
 #include "render/renderer.h"
+#include "support/assets.h"
 #include "support/scenes.h"
 
 namespace midway::test {
 namespace {
-
-SceneOptions of_asset(const std::string& name) {
-    SceneOptions o;
-    o.path = std::string(MIDWAY_SOURCE_DIR) + "/assets/" + name;
-    return o;
-}
 
 std::vector<vec3> pixels(const PreparedScene& p) {
     ProgressiveRenderer r(p.scene, p.camera, settings(Technique::bdpt, 8, 4), {});
