@@ -11,6 +11,17 @@ bool no_weight(const Estimator& e, const Contribution& c) {
     return true;
 }
 
+// Whether anything of a contribution arrives over its edge; `seen` traces the edge's ray, which is
+// spared where the answer is known.
+template <class Seen>
+bool arrives(const Estimator& e, Contribution& c, RayCounts& rays, const Seen& seen) {
+    if (is_black(c.value) || no_weight(e, c)) return false;
+    rays.count_shadow(c.strategy);
+    const float part = seen();
+    c.value *= part;
+    return part > 0;
+}
+
 // The strategy that moves the connecting edge one step towards the camera (or the light) is
 // feasible if its family is in use; vertices and lights that forbid it have zero sums.
 mis::Side towards_camera(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
@@ -25,35 +36,36 @@ mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis
 }  // namespace
 
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached reached) {
-    if (reached == Reached::nothing) return {};
+    std::optional<Contribution> found;
+    if (reached == Reached::nothing) return found;
     const Strategy k{w.index + 1, 0};
-    if (!e.families.emitter_hit && !(k.s == 2 && e.direct_lamps)) return {};
+    if (!e.families.emitter_hit && !(k.s == 2 && e.direct_lamps)) return found;
     const std::optional<EmitterHit> hit =
         reached == Reached::sky ? sky_hit(*e.scene, w.ray.direction)
-                                : emitter_hit(*e.scene, w.point, w.vertex.to_previous);
-    if (!hit) return {};
-    Contribution c;
+                                : emitter_hit(*e.scene, *w.point, w.vertex.to_previous);
+    if (!hit) return found;
+    Contribution& c = found.emplace();
     c.strategy = k;
     c.value = w.throughput * hit->radiance;
     // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
     mis::EmitterHitPdfs pdfs{hit->pdfs.origin, hit->pdfs.leave, hit->pdfs.next_event, true};
     fill_weights(e, c, [&](const auto& h, int i) {
         pdfs.next_event_feasible = e.weighs({k.s - 1, 1}, i);
-        return k.s == 2 ? 1.0 : mis::emitter_hit(h, w.mis[i], pdfs);
+        return k.s == 2 ? 1.0 : mis::emitter_hit(h, w.vertex.mis[i], pdfs);
     });
-    return c;
+    return found;
 }
 
 std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& v,
-                                             const SampleKey& key, RayCounts& rays) {
-    const vec4 u = sample_4d(key, connect_group(v.index));
+                                             const vec4& u, RayCounts& rays) {
+    std::optional<Contribution> found;
     const std::optional<NextEventSample> n = sample_next_event(*e.scene, v.position, vec3(u));
-    if (!n) return {};
+    if (!n) return found;
     const BsdfEval f = eval_bsdf(v.bsdf, v.to_previous, n->direction, Transport::radiance);
-    if (is_black(f.f)) return {};
+    if (is_black(f.f)) return found;
     const LightKind kind = e.scene->lights[n->light].kind;
     const double cos_v = abs_dot(v.ng, n->direction);
-    Contribution c;
+    Contribution& c = found.emplace();
     c.strategy = {v.index + 1, 1};
     c.value = v.throughput * f.f * n->value * static_cast<float>(cos_v);
 
@@ -64,35 +76,31 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
         pdfs.hit_feasible = !is_delta(kind) && e.weighed[i].emitter_hit;
         return mis::next_event(h, v.mis[i], towards_camera(e, c.strategy, i, side), pdfs);
     });
-    if (is_black(c.value) || no_weight(e, c)) return {};
-
-    rays.count_shadow(c.strategy);
-    const vec3 from = leave(v, n->direction);
-    const float seen =
-        is_infinite(kind)
-            ? visibility_to_infinity(*e.scene, from, n->direction)
-            : visibility(*e.scene, from, offset_end(n->target, n->normal, n->error, v.position));
-    if (seen == 0) return {};
-    c.value *= seen;
-    return c;
+    const auto seen = [&] {
+        const vec3 from = leave(v, n->direction);
+        if (is_infinite(kind)) return visibility_to_infinity(*e.scene, from, n->direction);
+        return visibility(*e.scene, from, offset_end(n->target, n->normal, n->error, v.position));
+    };
+    if (!arrives(e, c, rays, seen)) found.reset();
+    return found;
 }
 
 std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, const PathVertex& l,
                                     RayCounts& rays) {
+    std::optional<Contribution> found;
     const vec3 d = l.position - v.position;
     const double distance2 = length_squared(d);
-    if (!(distance2 > 0)) return {};
+    if (!(distance2 > 0)) return found;
     const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
     const BsdfEval fv = eval_bsdf(v.bsdf, v.to_previous, direction, Transport::radiance);
-    if (is_black(fv.f)) return {};
+    if (is_black(fv.f)) return found;
     const BsdfEval fl = eval_bsdf(l.bsdf, l.to_previous, -direction, Transport::importance);
-    if (is_black(fl.f)) return {};
+    if (is_black(fl.f)) return found;
     const double g_v = abs_dot(v.ng, direction) / distance2;
     const double g_l = abs_dot(l.ng, direction) / distance2;
-    Contribution c;
+    Contribution& c = found.emplace();
     c.strategy = {v.index + 1, l.index + 1};
     c.value = v.throughput * fv.f * fl.f * l.throughput * static_cast<float>(g_v * g_l * distance2);
-    if (is_black(c.value)) return {};
 
     const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w};
     const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w};
@@ -100,53 +108,42 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
         return mis::connection(h, v.mis[i], towards_camera(e, c.strategy, i, camera), l.mis[i],
                                towards_light(e, c.strategy, i, light));
     });
-    if (no_weight(e, c)) return {};
-
-    rays.count_shadow(c.strategy);
-    const float seen = edge_visibility(*e.scene, v, l);
-    if (seen == 0) return {};
-    c.value *= seen;
-    return c;
+    if (!arrives(e, c, rays, [&] { return edge_visibility(*e.scene, v, l); })) found.reset();
+    return found;
 }
 
-std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l,
-                                       const SampleKey& key, RayCounts& rays) {
-    const vec4 u = sample_4d(key, connect_group(l.index));
+std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, const vec4& u,
+                                       RayCounts& rays) {
+    std::optional<Splat> splat;
     const vec3 lens = lens_point(e.camera, {u.x, u.y});
     const vec3 d = lens - l.position;
     const double distance2 = length_squared(d);
-    if (!(distance2 > 0)) return {};
+    if (!(distance2 > 0)) return splat;
     const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
     const std::optional<vec2> film = film_position(e.camera, lens, -direction);
-    if (!film) return {};
+    if (!film) return splat;
     const SplatPixel pixel = choose_splat_pixel(e.filter, *film, {u.z, u.w});
-    if (!(pixel.factor > 0) || !e.crop.contains(pixel.x, pixel.y)) return {};
+    if (!(pixel.factor > 0) || !e.crop.contains(pixel.x, pixel.y)) return splat;
     const BsdfEval f = eval_bsdf(l.bsdf, l.to_previous, direction, Transport::importance);
-    if (is_black(f.f)) return {};
+    if (is_black(f.f)) return splat;
     const double cos_l = abs_dot(l.ng, direction);
     // Density per area at the vertex of one camera sample per pixel area: also the importance.
     const double pdf_a =
         camera_pdf_w(e.camera, -glm::dot(direction, e.camera.forward)) * cos_l / distance2;
-    Splat s;
+    Splat& s = splat.emplace();
     s.x = pixel.x;
     s.y = pixel.y;
     Contribution& c = s.contribution;
     c.strategy = {1, l.index + 1};
     c.value =
         l.throughput * f.f * static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
-    if (is_black(c.value)) return {};
     const mis::Side side{pdf_a, f.pdf_rev_w};
     fill_weights(e, c, [&](const auto& h, int i) {
         return mis::light_tracing(h, l.mis[i], towards_light(e, c.strategy, i, side),
                                   double(e.light_subpaths));
     });
-    if (no_weight(e, c)) return {};
-
-    rays.count_shadow(c.strategy);
-    const float seen = edge_visibility(*e.scene, l, lens);
-    if (seen == 0) return {};
-    c.value *= seen;
-    return s;
+    if (!arrives(e, c, rays, [&] { return edge_visibility(*e.scene, l, lens); })) splat.reset();
+    return splat;
 }
 
 }  // namespace midway

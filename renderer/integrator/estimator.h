@@ -53,7 +53,7 @@ void fill_weights(const Estimator& e, Contribution& c, const Weigh& weigh) {
 
 // Next event from the camera vertex (t = 1); empty where nothing arrives.
 std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& camera,
-                                             const SampleKey& key, RayCounts& rays);
+                                             const vec4& u, RayCounts& rays);
 
 // Connection of two surface vertices (s, t >= 2).
 std::optional<Contribution> connect(const Estimator& e, const PathVertex& camera,
@@ -64,8 +64,8 @@ struct Splat {
     int x = 0, y = 0;
     Contribution contribution;
 };
-std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& light,
-                                       const SampleKey& key, RayCounts& rays);
+std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& light, const vec4& u,
+                                       RayCounts& rays);
 
 // The camera walk reached a light, or the sky (t = 0).
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& walk, Reached reached);
@@ -83,7 +83,7 @@ void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_
         const PathVertex& v = walk->vertex;
         if (v.connectible) {
             if (e.families.light_tracing && record.wants({1, v.index + 1}))
-                if (const auto s = connect_to_camera(e, v, walk->key, rays))
+                if (const auto s = connect_to_camera(e, v, walk->numbers.connect, rays))
                     record.splat(s->x, s->y, s->contribution);
             if (e.families.connection) vertices.push_back(v);
         }
@@ -117,7 +117,8 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
         const PathVertex& v = walk.vertex;
         if (v.connectible) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
-                if (const auto c = connect_to_light(e, v, walk.key, rays)) record.contribution(*c);
+                if (const auto c = connect_to_light(e, v, walk.numbers.connect, rays))
+                    record.contribution(*c);
             for (const PathVertex& l : light) {
                 if (v.index + l.index > e.max_bounces) break;
                 if (!record.wants({v.index + 1, l.index + 1})) continue;

@@ -1,5 +1,7 @@
 #include "integrator/walk.h"
 
+#include "math/in_place.h"
+
 namespace midway {
 namespace {
 
@@ -36,7 +38,7 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     if (w.transport == Transport::radiance) {
         const double pdf_a = w.pdf_fwd_w * cos_in / distance2;
         for_each_exponent(e, [&](const auto& h, int i) {
-            w.mis[i] = mis::start_camera(h, double(e.light_subpaths), pdf_a);
+            w.vertex.mis[i] = mis::start_camera(h, double(e.light_subpaths), pdf_a);
         });
         return;
     }
@@ -47,7 +49,7 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     l.next_event_ratio = double(w.light_pdfs.next_event) / w.light_pdfs.origin;
     for_each_exponent(e, [&](const auto& h, int i) {
         l.hittable = w.hittable_light && e.weighed[i].emitter_hit;
-        w.mis[i] = mis::start_light(h, l);
+        w.vertex.mis[i] = mis::start_light(h, l);
     });
 }
 
@@ -56,7 +58,7 @@ void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
     const Strategy previous = previous_strategy(w);
     for_each_exponent(e, [&](const auto& h, int i) {
         step.connects = e.weighs(previous, i);
-        w.mis[i] = mis::advance(h, w.mis[i], step);
+        w.vertex.mis[i] = mis::advance(h, w.vertex.mis[i], step);
     });
 }
 
@@ -95,15 +97,17 @@ Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
 
 std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
                                      std::uint64_t pass) {
-    Walk w;
-    w.transport = Transport::importance;
-    w.roulette_start = e.roulette_start;
-    w.key = light_key(e, subpath, pass);
-    const vec4 u = sample_4d(w.key, 0);
-    const float pick = sample_4d(w.key, 1).x;
+    std::optional<Walk> walk;
+    const SampleKey key = light_key(e, subpath, pass);
+    const vec4 u = sample_4d(key, 0);
+    const float pick = sample_4d(key, 1).x;
     const std::optional<EmissionSample> s =
         sample_emission(*e.scene, {pick, {u.x, u.y}, {u.z, u.w}});
-    if (!s) return {};
+    if (!s) return walk;
+    Walk& w = walk.emplace();
+    w.transport = Transport::importance;
+    w.roulette_start = e.roulette_start;
+    w.key = key;
     const LightKind kind = e.scene->lights[s->light].kind;
     w.ray.origin = kind == LightKind::area
                        ? offset_origin(s->position, s->normal, s->error, s->direction)
@@ -117,34 +121,35 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
     w.light_pdfs = s->pdfs;
     w.infinite_light = is_infinite(kind);
     w.hittable_light = !is_delta(kind);
-    return w;
+    return walk;
 }
 
 Reached extend(const Estimator& e, Walk& w) {
-    const std::optional<SurfacePoint> hit = intersect(*e.scene, w.ray, coin(w));
+    build_at(w.point, [&] { return intersect(*e.scene, w.ray, coin(w)); });
     ++w.index;
-    if (!hit) {
+    if (!w.point) {
         if (w.index == 1)
             start_sums(e, w, 1, 1);
         else
             advance_sums(e, w, 1, w.cos_previous);
         return Reached::sky;
     }
-    w.point = *hit;
-    const vec3 back = w.previous_position - hit->position;
+    const SurfacePoint& p = *w.point;
+    const vec3 back = w.previous_position - p.position;
     const double distance2 = length_squared(back);
     // Two surfaces that touch within rounding: there is no edge to walk.
     if (!(distance2 > 0)) return Reached::nothing;
     PathVertex& v = w.vertex;
-    v.position = hit->position;
-    v.error = hit->error;
-    v.ng = hit->shading.ng;
+    v.position = p.position;
+    v.error = p.error;
+    v.ng = p.shading.ng;
     // From an infinitely far light the edge has the direction of the ray, wherever the disc lies.
     v.to_previous = w.infinite_light && w.index == 1
                         ? -w.ray.direction
                         : back / static_cast<float>(std::sqrt(distance2));
     v.throughput = w.throughput;
-    v.bsdf = make_bsdf(material_at(*e.scene, *hit), e.scene->textures, hit->shading);
+    build_at(v.bsdf,
+             [&] { return make_bsdf(material_at(*e.scene, p), e.scene->textures, p.shading); });
     v.index = w.index;
     v.connectible = v.bsdf.connectible();
     const double cos_in = abs_dot(v.ng, v.to_previous);
@@ -153,13 +158,14 @@ Reached extend(const Estimator& e, Walk& w) {
         start_sums(e, w, cos_in, distance2);
     else
         advance_sums(e, w, cos_in / distance2, w.cos_previous / distance2);
-    v.mis = w.mis;
+    const auto u = sample_4d_pair(w.key, 2 + 2 * static_cast<std::uint32_t>(w.index));
+    w.numbers = {u[0], u[1]};
     return Reached::surface;
 }
 
 bool scatter(Walk& w) {
     const PathVertex& v = w.vertex;
-    const vec4 u = sample_4d(w.key, scatter_group(w.index));
+    const vec4& u = w.numbers.scatter;
     const std::optional<BsdfSample> s = sample_bsdf(v.bsdf, v.to_previous, vec3(u), w.transport);
     if (!s) return false;
     w.throughput *= s->weight;

@@ -67,6 +67,12 @@ struct PathVertex {
     bool connectible = false;
 };
 
+// Random numbers that a vertex uses: for the walk's next direction and roulette, and for next event
+// or the lens.
+struct VertexNumbers {
+    vec4 scatter{0}, connect{0};
+};
+
 struct Walk {
     Transport transport = Transport::radiance;
     SampleKey key;
@@ -80,7 +86,6 @@ struct Walk {
     float pdf_fwd_w = 0, pdf_rev_w = 0;
     float cos_previous = 1;
     bool delta = false;
-    std::array<mis::State, max_exponents> mis;
 
     // Start of a light subpath; unused by the camera.
     int light = -1;
@@ -88,8 +93,9 @@ struct Walk {
     bool infinite_light = false, hittable_light = true;
 
     int index = 0;  // of the vertex reached last
-    SurfacePoint point;
-    PathVertex vertex;
+    std::optional<SurfacePoint> point;
+    PathVertex vertex;  // its mis also where the walk left the scene
+    VertexNumbers numbers;
 };
 
 SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
@@ -108,16 +114,12 @@ void for_each_subpath(const Estimator& e, int x, int y, std::uint64_t pass, cons
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass);
 std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
 
-// Traces to the next vertex. Where the ray leaves the scene, walk.mis holds the sums for a vertex
-// at infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
+// Traces to the next vertex. Where the ray leaves the scene, walk.vertex.mis holds the sums for a
+// vertex at infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
 enum class Reached : std::uint8_t { surface, sky, nothing };
 Reached extend(const Estimator& e, Walk& walk);
 
 // Chooses the next direction. False where the walk ends.
 bool scatter(Walk& walk);
-
-// Groups of the sampler that a vertex uses.
-inline std::uint32_t scatter_group(int index) { return 2 + 2 * static_cast<std::uint32_t>(index); }
-inline std::uint32_t connect_group(int index) { return 3 + 2 * static_cast<std::uint32_t>(index); }
 
 }  // namespace midway

@@ -31,9 +31,10 @@ Bits4 owen_sobol_4d(std::uint32_t index, std::uint64_t seed);
 Bits4 sample_bits(const SampleKey& sample, std::uint32_t group);
 
 // The same as floats in [0, 1 - 2^-24].
-inline vec4 sample_4d(const SampleKey& sample, std::uint32_t group) {
-    const Bits4 b = sample_bits(sample, group);
-    return {to_unit_float(b[0]), to_unit_float(b[1]), to_unit_float(b[2]), to_unit_float(b[3])};
-}
+vec4 sample_4d(const SampleKey& sample, std::uint32_t group);
+
+// Of `group` and the next one: together they take little longer than one, each being a long chain
+// of operations that wait for each other.
+std::array<vec4, 2> sample_4d_pair(const SampleKey& sample, std::uint32_t group);
 
 }  // namespace midway

@@ -33,7 +33,7 @@ struct Tracer {
 
     void leave(const Walk& w, const vec3& direction) {
         const PathVertex& v = w.vertex;
-        const TriangleHit& own = w.point.hit;
+        const TriangleHit& own = w.point->hit;
         const LeavingRay leaving{{offset_origin(v.position, v.ng, v.error, direction), direction},
                                  v.position,
                                  v.error,
@@ -76,7 +76,7 @@ struct Tracer {
         ++sums.edges;
         const float seen =
             before ? edge_visibility(*e.scene, *before, v) : edge_visibility(*e.scene, v, lens);
-        if (seen == 0) sums.blocked.add(place, name(w.point.hit.object));
+        if (seen == 0) sums.blocked.add(place, name(w.point->hit.object));
     }
 
     void walk(Walk w, bool camera, Numbers& numbers, std::vector<PathVertex>& vertices) {

@@ -100,7 +100,7 @@ void add_light_end(DrawnPath& p, int i) {
 
 void add_vertex(RecordedWalk& w) {
     w.vertices.push_back(w.now.vertex);
-    w.hits.push_back(w.now.point.hit);
+    w.hits.push_back(w.now.point->hit);
 }
 
 // scatter() of the last vertex, with its pdfs put on record.
@@ -127,10 +127,10 @@ LightEnd end_of(const Walk& start) {
 
 void visit_light_tracing(const Estimator& e, const RecordedWalk& light, const Visit& visit) {
     const PathVertex& v = light.now.vertex;
+    const vec4& u = light.now.numbers.connect;
     RayCounts rays;
-    const std::optional<Splat> s = connect_to_camera(e, v, light.now.key, rays);
+    const std::optional<Splat> s = connect_to_camera(e, v, u, rays);
     if (!s) return;
-    const vec4 u = sample_4d(light.now.key, connect_group(v.index));
     const vec3 lens = lens_point(e.camera, {u.x, u.y});
     DrawnPath p = join({}, 0, &light, v.index, end_of(light.start), lens);
     p.contribution = s->contribution;
@@ -153,9 +153,9 @@ void visit_hit(const Estimator& e, const RecordedWalk& camera, Reached reached,
     end.position = end.infinite ? w.ray.direction : w.vertex.position;
     end.cosine = end.infinite ? 1 : abs_dot(w.vertex.ng, w.vertex.to_previous);
     end.pdfs = (end.infinite ? sky_hit(*e.scene, w.ray.direction)
-                             : emitter_hit(*e.scene, w.point, w.vertex.to_previous))
+                             : emitter_hit(*e.scene, *w.point, w.vertex.to_previous))
                    ->pdfs;
-    end.id = end.infinite ? e.scene->sky_light : light_of(*e.scene, w.point.hit);
+    end.id = end.infinite ? e.scene->sky_light : light_of(*e.scene, w.point->hit);
     DrawnPath p = join(camera, w.index - 1, nullptr, 0, end, camera.start.ray.origin);
     p.contribution = *c;
     add_camera_pdfs(p, camera, w.index - 1);
@@ -165,10 +165,10 @@ void visit_hit(const Estimator& e, const RecordedWalk& camera, Reached reached,
 
 void visit_next_event(const Estimator& e, const RecordedWalk& camera, const Visit& visit) {
     const PathVertex& v = camera.now.vertex;
+    const vec4& u = camera.now.numbers.connect;
     RayCounts rays;
-    const std::optional<Contribution> c = connect_to_light(e, v, camera.now.key, rays);
+    const std::optional<Contribution> c = connect_to_light(e, v, u, rays);
     if (!c) return;
-    const vec4 u = sample_4d(camera.now.key, connect_group(v.index));
     const NextEventSample n = *sample_next_event(*e.scene, v.position, vec3(u));
     const LightKind kind = e.scene->lights[n.light].kind;
     const LightEnd end{is_infinite(kind) ? n.direction : n.target,

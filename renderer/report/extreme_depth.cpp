@@ -163,7 +163,7 @@ CaseResult mirror_box(const CaseContext& context) {
                 Walk w = start_camera_walk(e, x, y, pass);
                 float nearest_edge = 1;
                 while (extend(e, w) == Reached::surface && w.index <= deep && scatter(w))
-                    nearest_edge = std::min(nearest_edge, edge_distance(w.point.hit));
+                    nearest_edge = std::min(nearest_edge, edge_distance(w.point->hit));
                 if (w.index > deep) continue;
                 ++lost;
                 far_from_edges += nearest_edge > 1e-5f;

@@ -124,7 +124,8 @@ std::string first_difference(const Setup& a, const Scene& scene_a, const Setup& 
                 const bool same_ray =
                     wa.ray.direction == wb.ray.direction && wa.ray.origin * factor == wb.ray.origin;
                 const Reached ra = extend(ea, wa), rb = extend(eb, wb);
-                const TriangleHit &ha = wa.point.hit, &hb = wb.point.hit;
+                const TriangleHit ha = wa.point ? wa.point->hit : TriangleHit{},
+                                  hb = wb.point ? wb.point->hit : TriangleHit{};
                 const bool same_hit =
                     ra == rb && (ra != Reached::surface ||
                                  (ha.object == hb.object && ha.triangle == hb.triangle &&

@@ -17,7 +17,7 @@ T interpolate(const std::vector<T>& values, const uvec3& t, float b0, float b1, 
 
 }  // namespace
 
-SurfacePoint surface_point(const Object& o, const TriangleHit& hit) {
+SurfacePoint surface_point(const Object& o, TriangleHit hit) {
     const uvec3& t = o.triangles[hit.triangle];
     const vec3 &v0 = o.positions[t.x], &v1 = o.positions[t.y], &v2 = o.positions[t.z];
     const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;

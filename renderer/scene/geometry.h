@@ -56,7 +56,7 @@ struct SurfacePoint {
     ShadingPoint shading;
 };
 
-SurfacePoint surface_point(const Object& object, const TriangleHit& hit);
+SurfacePoint surface_point(const Object& object, TriangleHit hit);
 
 // The origin of a ray that leaves `position` on the side of ng that `towards` points to, far enough
 // for the ray not to meet the surface it left (error bound of the hit; no absolute epsilon).

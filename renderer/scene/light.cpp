@@ -74,7 +74,7 @@ vec3 area_emission(const Scene& s, const SurfacePoint& p) {
     return material_emission(m, s.textures, p.shading) * material_alpha(m, s.textures, p.shading);
 }
 
-EmissionSample emit_area(const Scene& s, int id, const EmissionNumbers& u) {
+void emit_area(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
     const Light& l = s.lights[id];
     const SurfacePoint p = area_point(s, l, u.point);
     vec2 ud = u.direction;
@@ -84,7 +84,6 @@ EmissionSample emit_area(const Scene& s, int id, const EmissionNumbers& u) {
         ud.x = ud.x < 0.5f ? 2 * ud.x : 2 * ud.x - 1;
     }
     const vec3 local = square_to_cosine_hemisphere(ud);
-    EmissionSample e;
     e.position = p.position;
     e.error = p.error;
     e.normal = p.shading.ng * side;
@@ -92,13 +91,11 @@ EmissionSample emit_area(const Scene& s, int id, const EmissionNumbers& u) {
     e.cos_theta = local.z;
     e.pdfs = area_pdfs(s, id, local.z);
     e.weight = area_emission(s, p) * (local.z / (e.pdfs.origin * e.pdfs.leave));
-    return e;
 }
 
-EmissionSample emit_punctual(const Scene& s, int id, const EmissionNumbers& u) {
+void emit_punctual(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
     const Light& l = s.lights[id];
     const float pick = emission_probability(s, id), pick_next = next_event_probability(s, id);
-    EmissionSample e;
     if (l.kind == LightKind::directional) {
         e.position = disc_point(s, l.direction, u.point);
         e.direction = l.direction;
@@ -117,93 +114,94 @@ EmissionSample emit_punctual(const Scene& s, int id, const EmissionNumbers& u) {
         e.weight = l.emission * (2 * pi * spot_integral(l) / pick);
     }
     e.normal = e.direction;
-    return e;
 }
 
-EmissionSample emit_sky(const Scene& s, const EmissionNumbers& u) {
+void emit_sky(const Scene& s, const EmissionNumbers& u, EmissionSample& e) {
     const SkySample sample = sample_sky(*s.sky, u.direction);
-    EmissionSample e;
     e.direction = -sample.direction;
     e.position = disc_point(s, e.direction, u.point);
     e.normal = e.direction;
     e.pdfs = sky_pdfs(s, sample.direction);
     e.weight = sky_radiance(*s.sky, sample.direction) / (e.pdfs.origin * e.pdfs.leave);
-    return e;
 }
 
-NextEventSample next_event_area(const Scene& s, int id, const vec3& reference, const vec2& u) {
+void next_event_area(const Scene& s, int id, const vec3& reference, const vec2& u,
+                     NextEventSample& n) {
     const Light& l = s.lights[id];
     const SurfacePoint p = area_point(s, l, u);
     const vec3 d = p.position - reference;
-    NextEventSample n;
     n.distance_squared = length_squared(d);
-    if (!(n.distance_squared > 0)) return n;
+    if (!(n.distance_squared > 0)) return;
     n.direction = d / std::sqrt(n.distance_squared);
     const float c = -glm::dot(p.shading.ng, n.direction);
-    if (c == 0 || (c < 0 && !l.two_sided)) return n;
+    if (c == 0 || (c < 0 && !l.two_sided)) return;
     n.target = p.position;
     n.normal = p.shading.ng;
     n.error = p.error;
     n.cos_theta = std::abs(c);
     n.pdfs = area_pdfs(s, id, c);
     n.value = area_emission(s, p) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
-    return n;
 }
 
-NextEventSample next_event_punctual(const Scene& s, int id, const vec3& reference) {
+void next_event_punctual(const Scene& s, int id, const vec3& reference, NextEventSample& n) {
     const Light& l = s.lights[id];
     const float pick = emission_probability(s, id), pick_next = next_event_probability(s, id);
-    NextEventSample n;
     if (l.kind == LightKind::directional) {
         n.direction = -l.direction;
         n.value = l.emission / pick_next;
         n.pdfs = {pick, disc_pdf(s), pick_next};
-        return n;
+        return;
     }
     const vec3 d = l.position - reference;
     n.distance_squared = length_squared(d);
-    if (!(n.distance_squared > 0)) return n;
+    if (!(n.distance_squared > 0)) return;
     n.direction = d / std::sqrt(n.distance_squared);
     n.target = l.position;
     const float c = -glm::dot(n.direction, l.direction);
     const bool spot = l.kind == LightKind::spot;
     n.pdfs = {pick, spot ? spot_pdf_w(l, c) : sphere_pdf_w, pick_next};
     n.value = l.emission * ((spot ? spot_falloff(l, c) : 1.0f) / (n.distance_squared * pick_next));
-    return n;
 }
 
 }  // namespace
 
 std::optional<EmissionSample> sample_emission(const Scene& s, const EmissionNumbers& u) {
-    if (!(s.emission_pick.total > 0)) return {};
+    std::optional<EmissionSample> found;
+    if (!(s.emission_pick.total > 0)) return found;
     const int id = sample_discrete(s.emission_pick, u.pick).index;
     const LightKind kind = s.lights[id].kind;
-    EmissionSample e = kind == LightKind::area  ? emit_area(s, id, u)
-                       : kind == LightKind::sky ? emit_sky(s, u)
-                                                : emit_punctual(s, id, u);
+    EmissionSample& e = found.emplace();
     e.light = id;
-    if (is_black(e.weight)) return {};
-    return e;
+    if (kind == LightKind::area) {
+        emit_area(s, id, u, e);
+    } else if (kind == LightKind::sky) {
+        emit_sky(s, u, e);
+    } else {
+        emit_punctual(s, id, u, e);
+    }
+    if (is_black(e.weight)) found.reset();
+    return found;
 }
 
 std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& reference,
                                                  const vec3& u) {
-    if (!(s.next_event_pick.total > 0)) return {};
+    std::optional<NextEventSample> found;
+    if (!(s.next_event_pick.total > 0)) return found;
     const int id = sample_discrete(s.next_event_pick, u.x).index;
     const LightKind kind = s.lights[id].kind;
-    NextEventSample n;
+    NextEventSample& n = found.emplace();
+    n.light = id;
     if (kind == LightKind::area) {
-        n = next_event_area(s, id, reference, {u.y, u.z});
+        next_event_area(s, id, reference, {u.y, u.z}, n);
     } else if (kind == LightKind::sky) {
         n.direction = sample_sky(*s.sky, {u.y, u.z}).direction;
         n.pdfs = sky_pdfs(s, n.direction);
         n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
     } else {
-        n = next_event_punctual(s, id, reference);
+        next_event_punctual(s, id, reference, n);
     }
-    n.light = id;
-    if (is_black(n.value)) return {};
-    return n;
+    if (is_black(n.value)) found.reset();
+    return found;
 }
 
 std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards) {

@@ -1,5 +1,7 @@
 #include "scene/scene.h"
 
+#include "math/in_place.h"
+
 namespace midway {
 
 float AlphaLookup::operator()(const TriangleHit& hit) const {
@@ -9,9 +11,11 @@ float AlphaLookup::operator()(const TriangleHit& hit) const {
 }
 
 std::optional<SurfacePoint> intersect(const Scene& s, const Ray& ray, std::uint64_t coin) {
+    std::optional<SurfacePoint> point;
     const TriangleHit hit = s.accel->closest(ray, {&s}, coin);
-    if (hit.object < 0) return {};
-    return surface_point(s.geometry->objects[hit.object], hit);
+    if (hit.object < 0) return point;
+    build_at(point.emplace(), [&] { return surface_point(s.geometry->objects[hit.object], hit); });
+    return point;
 }
 
 float visibility(const Scene& s, const vec3& from, const vec3& to) {

@@ -87,15 +87,16 @@ float reverse_choice(const Bsdf& b, const Entry& e, const vec3& to, const vec3& 
 // A delta lobe's outcome. The Dirac factors of the two densities are related by d(omega) |cos| n^2,
 // which refraction preserves; that ratio is put into the two numbers, so that weights can treat
 // them as ordinary densities.
-std::optional<BsdfSample> sample_delta(const Bsdf& b, const vec3& from, const Entry& e, bool glass,
-                                       float u, Transport transport) {
+// False where there is none.
+bool sample_delta(const Bsdf& b, const vec3& from, const Entry& e, bool glass, float u,
+                  Transport transport, BsdfSample& s) {
     const float eta = eta_beyond(b, e.side.front);
     const float r = glass ? glass_reflectance(b, e.lobe.z, eta) : 1.0f;
     const bool reflects = !glass || choose(r, u);
     vec3 w(-e.lobe.x, -e.lobe.y, e.lobe.z);
     if (!reflects) w = b.thin ? -e.lobe : refract(e.lobe, {0, 0, 1}, e.lobe.z, eta);
     const std::optional<Exit> exit = leave_lobe(e, w, reflects, transport, u);
-    if (!exit || w.z == 0) return {};
+    if (!exit || w.z == 0) return false;
 
     const float part = glass ? (reflects ? r : 1 - r) : 1.0f;
     const vec3 reflectance = glass ? b.glass * (reflects ? vec3(1) : b.glass_tint) * part
@@ -108,10 +109,9 @@ std::optional<BsdfSample> sample_delta(const Bsdf& b, const vec3& from, const En
     const float probability =
         (glass ? chosen.glass : chosen.specular) * part / static_cast<float>(e.folds * exit->folds);
     const float reverse = reverse_choice(b, e, exit->to, w, glass, reflects, transport) * part;
-    if (!(probability > 0)) return {};
+    if (!(probability > 0)) return false;
     const float n = reflects || b.thin ? 1.0f : eta;
     const float mu_from = e.lobe.z, mu_to = std::abs(w.z);
-    BsdfSample s;
     s.delta = true;
     s.to = to_world(b, exit->to, e.side.front);
     s.weight = reflectance / probability;
@@ -123,7 +123,7 @@ std::optional<BsdfSample> sample_delta(const Bsdf& b, const vec3& from, const En
     }
     s.pdf_fwd_w = probability * mu_to * n;
     s.pdf_rev_w = reverse * mu_from / n;
-    return s;
+    return true;
 }
 
 // The lobe's outcome for a rough lobe; empty where the facet turns it to the wrong side of ns.
@@ -151,21 +151,18 @@ std::optional<FacetOutcome> sample_facet(const Bsdf& b, const Entry& e, bool gla
     return FacetOutcome{glm::normalize(t), false};
 }
 
-}  // namespace
-
-std::optional<BsdfSample> sample_bsdf(const Bsdf& b, const vec3& from, const vec3& u,
-                                      Transport transport) {
+// sample_bsdf(); false where it draws nothing.
+bool draw(const Bsdf& b, const vec3& from, const vec3& u, Transport transport, BsdfSample& s) {
     const float gf = glm::dot(from, b.ng);
-    if (gf == 0) return {};
+    if (gf == 0) return false;
     const bool front = gf > 0;
     const vec3 l = to_local(b, from, front);
     const float z = transport == Transport::radiance
                         ? std::abs(l.z)
                         : light_cosine(light_side(side_frame(b, front), l));
     const LobeChoice choice = choose_lobes(b, z);
-    if (!(choice.diffuse + choice.specular + choice.glass > 0)) return {};
+    if (!(choice.diffuse + choice.specular + choice.glass > 0)) return false;
     float v = u.z;
-    BsdfSample s;
     bool crosses = false;
     if (choose(choice.diffuse, v)) {
         s.to = to_world(b, square_to_cosine_hemisphere(vec2(u)), front);
@@ -173,25 +170,34 @@ std::optional<BsdfSample> sample_bsdf(const Bsdf& b, const vec3& from, const vec
         if (glm::dot(s.to, b.ng) * gf < 0) s.to = -s.to;
     } else {
         const float lobes_left = choice.specular + choice.glass;
-        if (!(lobes_left > 0)) return {};
+        if (!(lobes_left > 0)) return false;
         const bool glass = !choose(choice.specular / lobes_left, v);
         const std::optional<Entry> e = enter_lobe(b, from, front, transport, v);
-        if (!e) return {};
-        if (b.smooth()) return sample_delta(b, from, *e, glass, v, transport);
+        if (!e) return false;
+        if (b.smooth()) return sample_delta(b, from, *e, glass, v, transport, s);
         const std::optional<FacetOutcome> facet = sample_facet(b, *e, glass, vec2(u), v);
-        if (!facet) return {};
+        if (!facet) return false;
         const std::optional<Exit> exit = leave_lobe(*e, facet->w, facet->reflects, transport, v);
-        if (!exit) return {};
+        if (!exit) return false;
         s.to = to_world(b, exit->to, front);
         crosses = !facet->reflects;
     }
     const BsdfEval e = eval_bsdf(b, from, s.to, transport);
-    if (!(e.pdf_fwd_w > 0) || is_black(e.f)) return {};
+    if (!(e.pdf_fwd_w > 0) || is_black(e.f)) return false;
     s.weight = e.f * (abs_dot(s.to, b.ng) / e.pdf_fwd_w);
     s.pdf_fwd_w = e.pdf_fwd_w;
     s.pdf_rev_w = e.pdf_rev_w;
     if (crosses && !b.thin && transport == Transport::radiance)
         s.eta_scale = 1 / sqr(eta_beyond(b, front));
+    return true;
+}
+
+}  // namespace
+
+std::optional<BsdfSample> sample_bsdf(const Bsdf& b, const vec3& from, const vec3& u,
+                                      Transport transport) {
+    std::optional<BsdfSample> s(std::in_place);
+    if (!draw(b, from, u, transport, *s)) s.reset();
     return s;
 }
 
