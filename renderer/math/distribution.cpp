@@ -10,18 +10,33 @@ Distribution1D make_distribution(const std::vector<double>& weights) {
     double sum = 0;
     for (size_t i = 0; i < weights.size(); ++i) d.cdf[i + 1] = sum += weights[i];
     d.total = sum;
-    if (sum > 0)
-        for (double& c : d.cdf) c /= sum;
+    if (!(sum > 0)) return d;
+    for (double& c : d.cdf) c /= sum;
+    d.guide.reserve(weights.size());
+    std::uint32_t interval = 0;
+    for (size_t part = 0; part < weights.size(); ++part) {
+        while (interval + 1 < weights.size() &&
+               d.cdf[interval + 1] <= double(part) / double(weights.size()))
+            ++interval;
+        d.guide.push_back(interval);
+    }
     return d;
 }
 
-DiscreteSample sample_discrete(const Distribution1D& d, double u) {
+int find_interval(const Distribution1D& d, double u) {
     // The first boundary above u ends the interval; an empty interval has no point that is above
     // its start and below its end, so it is never chosen. Rounding at the top end falls back to the
     // last interval that is not empty.
-    auto end = std::upper_bound(d.cdf.begin(), d.cdf.end(), u);
-    if (end == d.cdf.end()) end = std::lower_bound(d.cdf.begin(), d.cdf.end(), d.cdf.back());
-    const int i = static_cast<int>(end - d.cdf.begin()) - 1;
+    const int last = d.size() - 1;
+    int i = static_cast<int>(d.guide[std::min(static_cast<int>(u * d.size()), last)]);
+    while (i > 0 && d.cdf[i] > u) --i;
+    while (i < last && d.cdf[i + 1] <= u) ++i;
+    while (d.cdf[i + 1] == d.cdf[i]) --i;
+    return i;
+}
+
+DiscreteSample sample_discrete(const Distribution1D& d, double u) {
+    const int i = find_interval(d, u);
     const double p = d.probability(i);
     const double inside = (u - d.cdf[i]) / p;
     return {i, p, std::clamp(static_cast<float>(inside), 0.0f, 1 - 0x1p-24f)};

@@ -83,10 +83,7 @@ class FilmRecord {
         x_ = x;
         y_ = y;
         pass_ = pass;
-        for (size_t i = 0; i < targets_.films->size(); ++i) {
-            pixel_[i] = {};
-            prefetch((*targets_.films)[i], x, y);
-        }
+        for (size_t i = 0; i < targets_.films->size(); ++i) pixel_[i] = {};
         if constexpr (observed)
             if (targets_.cells) buffer_.move_to(*targets_.cells, x, y, sums_.cells_lost);
     }
@@ -120,11 +117,11 @@ class FilmRecord {
     // Adds the sample's sum to its pixel.
     void end() {
         for (size_t i = 0; i < targets_.films->size(); ++i)
-            add((*targets_.films)[i], x_, y_, pixel_[i]);
+            wait((*targets_.films)[i], x_, y_, pixel_[i]);
     }
 
   private:
-    // A splat on its way to a film, at a pixel of the film.
+    // On its way to a film, at a pixel of the film.
     struct Waiting {
         Film* film = nullptr;
         std::uint64_t* lost = nullptr;
@@ -132,11 +129,8 @@ class FilmRecord {
         FixedRgb value;
     };
 
-    void prefetch(const Film& film, int x, int y) {
-        film.prefetch(half(), x - targets_.crop.x0, y - targets_.crop.y0);
-    }
-
-    // Splats land anywhere in the film. They wait until the memory they go to has arrived.
+    // Splats land anywhere in the film. They wait until the memory they go to has arrived, and all
+    // that waits is added at once: atomic additions hold up the work around them.
     void wait(Film& film, int x, int y, const FixedRgb& value) {
         wait({&film, &sums_.fixed.overflow, half(), x - targets_.crop.x0, y - targets_.crop.y0,
               value});

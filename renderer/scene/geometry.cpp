@@ -17,19 +17,28 @@ T interpolate(const std::vector<T>& values, const uvec3& t, float b0, float b1, 
 
 }  // namespace
 
-SurfacePoint surface_point(const Object& o, TriangleHit hit) {
+TrianglePoint triangle_point(const Object& o, TriangleHit hit) {
     const uvec3& t = o.triangles[hit.triangle];
     const vec3 &v0 = o.positions[t.x], &v1 = o.positions[t.y], &v2 = o.positions[t.z];
-    const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;
-    SurfacePoint p;
-    p.hit = hit;
-    p.position = v0 * b0 + v1 * b1 + v2 * b2;
     const vec3 e1 = v1 - v0, e2 = v2 - v0;
     const vec3 extent = glm::max(glm::abs(e1), glm::abs(e2));
+    TrianglePoint p;
+    p.position = v0 * (1 - hit.b1 - hit.b2) + v1 * hit.b1 + v2 * hit.b2;
     p.error =
         error_steps * half_ulp * (max_component(glm::abs(p.position)) + max_component(extent));
-    p.shading.ng = glm::normalize(glm::cross(e1, e2));
-    p.shading.normal = p.shading.ng;
+    p.ng = glm::normalize(glm::cross(e1, e2));
+    return p;
+}
+
+SurfacePoint surface_point(const Object& o, TriangleHit hit) {
+    const uvec3& t = o.triangles[hit.triangle];
+    const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;
+    const TrianglePoint flat = triangle_point(o, hit);
+    SurfacePoint p;
+    p.hit = hit;
+    p.position = flat.position;
+    p.error = flat.error;
+    p.shading.ng = p.shading.normal = flat.ng;
     p.shading.thin = !o.closed;
     if (!o.normals.empty()) {
         const vec3 n = interpolate(o.normals, t, b0, b1, b2);

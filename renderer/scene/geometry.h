@@ -58,6 +58,14 @@ struct SurfacePoint {
 
 SurfacePoint surface_point(const Object& object, TriangleHit hit);
 
+// The part of it that needs no attributes.
+struct TrianglePoint {
+    vec3 position{0};
+    float error = 0;
+    vec3 ng{0, 0, 1};
+};
+TrianglePoint triangle_point(const Object& object, TriangleHit hit);
+
 // The origin of a ray that leaves `position` on the side of ng that `towards` points to, far enough
 // for the ray not to meet the surface it left (error bound of the hit; no absolute epsilon).
 vec3 offset_origin(const vec3& position, const vec3& ng, float error, const vec3& towards);

@@ -63,20 +63,24 @@ LightPdfs sky_pdfs(const Scene& s, const vec3& direction) {
             next_event_probability(s, s.sky_light) * pdf_w};
 }
 
-SurfacePoint area_point(const Scene& s, const Light& l, const vec2& u) {
+TriangleHit area_place(const Light& l, const vec2& u) {
     const vec2 b = square_to_triangle(u);
-    return surface_point(s.geometry->objects[l.object], {l.object, l.triangle, b.x, b.y});
+    return {l.object, l.triangle, b.x, b.y};
 }
 
 // Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
-vec3 area_emission(const Scene& s, const SurfacePoint& p) {
-    const Material& m = material_at(s, p);
-    return material_emission(m, s.textures, p.shading) * material_alpha(m, s.textures, p.shading);
+vec3 area_emission(const Scene& s, const TriangleHit& place) {
+    const Object& o = s.geometry->objects[place.object];
+    const Material& m = s.materials[o.material];
+    if (!m.emission_texture.used() && m.alpha_mode == AlphaMode::opaque) return m.emission;
+    const ShadingPoint p = surface_point(o, place).shading;
+    return material_emission(m, s.textures, p) * material_alpha(m, s.textures, p);
 }
 
 void emit_area(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
     const Light& l = s.lights[id];
-    const SurfacePoint p = area_point(s, l, u.point);
+    const TriangleHit place = area_place(l, u.point);
+    const TrianglePoint p = triangle_point(s.geometry->objects[l.object], place);
     vec2 ud = u.direction;
     float side = 1;
     if (l.two_sided) {
@@ -86,11 +90,11 @@ void emit_area(const Scene& s, int id, const EmissionNumbers& u, EmissionSample&
     const vec3 local = square_to_cosine_hemisphere(ud);
     e.position = p.position;
     e.error = p.error;
-    e.normal = p.shading.ng * side;
+    e.normal = p.ng * side;
     e.direction = frame_from_normal(e.normal).to_world(local);
     e.cos_theta = local.z;
     e.pdfs = area_pdfs(s, id, local.z);
-    e.weight = area_emission(s, p) * (local.z / (e.pdfs.origin * e.pdfs.leave));
+    e.weight = area_emission(s, place) * (local.z / (e.pdfs.origin * e.pdfs.leave));
 }
 
 void emit_punctual(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
@@ -128,19 +132,20 @@ void emit_sky(const Scene& s, const EmissionNumbers& u, EmissionSample& e) {
 void next_event_area(const Scene& s, int id, const vec3& reference, const vec2& u,
                      NextEventSample& n) {
     const Light& l = s.lights[id];
-    const SurfacePoint p = area_point(s, l, u);
+    const TriangleHit place = area_place(l, u);
+    const TrianglePoint p = triangle_point(s.geometry->objects[l.object], place);
     const vec3 d = p.position - reference;
     n.distance_squared = length_squared(d);
     if (!(n.distance_squared > 0)) return;
     n.direction = d / std::sqrt(n.distance_squared);
-    const float c = -glm::dot(p.shading.ng, n.direction);
+    const float c = -glm::dot(p.ng, n.direction);
     if (c == 0 || (c < 0 && !l.two_sided)) return;
     n.target = p.position;
-    n.normal = p.shading.ng;
+    n.normal = p.ng;
     n.error = p.error;
     n.cos_theta = std::abs(c);
     n.pdfs = area_pdfs(s, id, c);
-    n.value = area_emission(s, p) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
+    n.value = area_emission(s, place) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
 }
 
 void next_event_punctual(const Scene& s, int id, const vec3& reference, NextEventSample& n) {
@@ -168,7 +173,7 @@ void next_event_punctual(const Scene& s, int id, const vec3& reference, NextEven
 std::optional<EmissionSample> sample_emission(const Scene& s, const EmissionNumbers& u) {
     std::optional<EmissionSample> found;
     if (!(s.emission_pick.total > 0)) return found;
-    const int id = sample_discrete(s.emission_pick, u.pick).index;
+    const int id = find_interval(s.emission_pick, u.pick);
     const LightKind kind = s.lights[id].kind;
     EmissionSample& e = found.emplace();
     e.light = id;
@@ -187,7 +192,7 @@ std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& ref
                                                  const vec3& u) {
     std::optional<NextEventSample> found;
     if (!(s.next_event_pick.total > 0)) return found;
-    const int id = sample_discrete(s.next_event_pick, u.x).index;
+    const int id = find_interval(s.next_event_pick, u.x);
     const LightKind kind = s.lights[id].kind;
     NextEventSample& n = found.emplace();
     n.light = id;

@@ -22,6 +22,7 @@ const std::array<float, 256>& srgb_table() {
 }
 
 int wrap_index(std::int64_t i, int n, Wrap wrap) {
+    if (i >= 0 && i < n) return static_cast<int>(i);  // spares the division, mostly
     if (wrap == Wrap::clamp) return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1));
     const std::int64_t period = wrap == Wrap::mirror ? 2 * std::int64_t{n} : n;
     std::int64_t r = i % period;
@@ -43,9 +44,10 @@ vec4 texel(const TextureImage& image, const TextureRef& ref, std::int64_t x, std
 
 // Tangent frame of the interpolated normal, tilted by the normal map.
 vec3 mapped_normal(const Material& m, const TextureSet& textures, const ShadingPoint& p) {
+    if (!m.normal_texture.used()) return p.normal;
     const vec3 t_raw = vec3(p.tangent) - p.normal * glm::dot(p.normal, vec3(p.tangent));
     const float t_len = glm::length(t_raw);
-    if (!m.normal_texture.used() || !(t_len > 0)) return p.normal;
+    if (!(t_len > 0)) return p.normal;
     const vec3 t = t_raw / t_len, b = glm::cross(p.normal, t) * p.tangent.w;
     vec3 n = vec3(sample_texture(textures, m.normal_texture, p, ColorSpace::linear)) * 2.0f - 1.0f;
     n.x *= m.normal_scale;
@@ -65,9 +67,8 @@ vec3 shading_normal(const Material& m, const TextureSet& textures, const Shading
 
 }  // namespace
 
-vec4 sample_texture(const TextureSet& textures, const TextureRef& ref, const ShadingPoint& point,
-                    ColorSpace space) {
-    if (!ref.used()) return vec4(1);
+vec4 look_up_texture(const TextureSet& textures, const TextureRef& ref, const ShadingPoint& point,
+                     ColorSpace space) {
     const TextureImage& image = *textures[ref.image];
     const vec3 uv1(point.uv[ref.texcoord], 1);
     const double x = double(glm::dot(ref.rows[0], uv1)) * image.width;

@@ -24,9 +24,15 @@ struct ShadingPoint {
 
 enum class ColorSpace : std::uint8_t { linear, srgb };
 
-// Bilinear or nearest. RGB is converted to linear before it is interpolated. White where unused.
-vec4 sample_texture(const TextureSet& textures, const TextureRef& ref, const ShadingPoint& point,
-                    ColorSpace space);
+// Bilinear or nearest. RGB is converted to linear before it is interpolated.
+vec4 look_up_texture(const TextureSet& textures, const TextureRef& ref, const ShadingPoint& point,
+                     ColorSpace space);
+
+// The same; white where unused.
+inline vec4 sample_texture(const TextureSet& textures, const TextureRef& ref,
+                           const ShadingPoint& point, ColorSpace space) {
+    return ref.used() ? look_up_texture(textures, ref, point, space) : vec4(1);
+}
 
 // Coverage in [0, 1] after the alpha mode: the probability that a ray meets the surface.
 float material_alpha(const Material& m, const TextureSet& textures, const ShadingPoint& point);
