@@ -26,6 +26,7 @@ Command add_diff_command(CLI::App& app);
 Command add_merge_command(CLI::App& app);
 Command add_check_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
+Command add_bench_command(CLI::App& app);
 
 // `typed` is the whole command line, for reports that say how to make them again.
 Command add_compare_command(CLI::App& app, const std::string& typed);

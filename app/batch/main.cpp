@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
         {"compare", midway::add_compare_command(app, typed_command(argc, argv))},
         {"merge", midway::add_merge_command(app)},
         {"check", midway::add_check_command(app)},
+        {"bench", midway::add_bench_command(app)},
         {"view", midway::add_view_command(app)}};
     try {
         app.parse(argc, argv);

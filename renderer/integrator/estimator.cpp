@@ -17,7 +17,9 @@ template <class Seen>
 bool arrives(const Estimator& e, Contribution& c, RayCounts& rays, const Seen& seen) {
     if (is_black(c.value) || no_weight(e, c)) return false;
     rays.count_shadow(c.strategy);
+    e.at(Work::rays);
     const float part = seen();
+    e.at(Work::other);
     c.value *= part;
     return part > 0;
 }
@@ -36,6 +38,7 @@ mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis
 }  // namespace
 
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached reached) {
+    e.at(Work::shading);
     std::optional<Contribution> found;
     if (reached == Reached::nothing) return found;
     const Strategy k{w.index + 1, 0};
@@ -49,6 +52,7 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     c.value = w.throughput * hit->radiance;
     // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
     mis::EmitterHitPdfs pdfs{hit->pdfs.origin, hit->pdfs.leave, hit->pdfs.next_event, true};
+    e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
         pdfs.next_event_feasible = e.weighs({k.s - 1, 1}, i);
         return k.s == 2 ? 1.0 : mis::emitter_hit(h, w.vertex.mis[i], pdfs);
@@ -58,6 +62,7 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
 
 std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& v,
                                              const vec4& u, RayCounts& rays) {
+    e.at(Work::shading);
     std::optional<Contribution> found;
     const std::optional<NextEventSample> n = sample_next_event(*e.scene, v.position, vec3(u));
     if (!n) return found;
@@ -72,6 +77,7 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
     const double g_light = n->cos_theta / double(n->distance_squared);  // 1 at infinity
     const mis::Side side{n->pdfs.leave * cos_v / n->distance_squared, f.pdf_rev_w};
     mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light};
+    e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
         pdfs.hit_feasible = !is_delta(kind) && e.weighed[i].emitter_hit;
         return mis::next_event(h, v.mis[i], towards_camera(e, c.strategy, i, side), pdfs);
@@ -87,6 +93,7 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
 
 std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, const PathVertex& l,
                                     RayCounts& rays) {
+    e.at(Work::shading);
     std::optional<Contribution> found;
     const vec3 d = l.position - v.position;
     const double distance2 = length_squared(d);
@@ -104,6 +111,7 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
 
     const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w};
     const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w};
+    e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
         return mis::connection(h, v.mis[i], towards_camera(e, c.strategy, i, camera), l.mis[i],
                                towards_light(e, c.strategy, i, light));
@@ -114,6 +122,7 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
 
 std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, const vec4& u,
                                        RayCounts& rays) {
+    e.at(Work::shading);
     std::optional<Splat> splat;
     const vec3 lens = lens_point(e.camera, {u.x, u.y});
     const vec3 d = lens - l.position;
@@ -138,6 +147,7 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, 
     c.value =
         l.throughput * f.f * static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
     const mis::Side side{pdf_a, f.pdf_rev_w};
+    e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
         return mis::light_tracing(h, l.mis[i], towards_light(e, c.strategy, i, side),
                                   double(e.light_subpaths));

@@ -83,8 +83,11 @@ void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_
         const PathVertex& v = walk->vertex;
         if (v.connectible) {
             if (e.families.light_tracing && record.wants({1, v.index + 1}))
-                if (const auto s = connect_to_camera(e, v, walk->numbers.connect, rays))
+                if (const auto s = connect_to_camera(e, v, walk->numbers.connect, rays)) {
+                    e.at(Work::film);
                     record.splat(s->x, s->y, s->contribution);
+                    e.at(Work::shading);
+                }
             if (e.families.connection) vertices.push_back(v);
         }
         if (walk->index == e.max_bounces || !scatter(*walk)) return;
@@ -100,6 +103,15 @@ inline bool has_found_all(const Estimator& e, int index) {
     return last || only_lamps;
 }
 
+// Hands a contribution, if there is one, to the sample's own pixel.
+template <class Record>
+void record_own(const Estimator& e, const std::optional<Contribution>& c, Record& record) {
+    if (!c) return;
+    e.at(Work::film);
+    record.contribution(*c);
+    e.at(Work::shading);
+}
+
 // Walks the camera subpath and forms every strategy that ends on it.
 template <class Record>
 void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
@@ -110,19 +122,17 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
         ++rays.closest;
         const Reached reached = extend(e, walk);
         const Strategy hit{walk.index + 1, 0};
-        if (record.wants(hit))
-            if (const auto c = hit_light(e, walk, reached)) record.contribution(*c);
+        if (record.wants(hit)) record_own(e, hit_light(e, walk, reached), record);
         if (reached != Reached::surface || walk.index > e.max_bounces) return;
 
         const PathVertex& v = walk.vertex;
         if (v.connectible) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
-                if (const auto c = connect_to_light(e, v, walk.numbers.connect, rays))
-                    record.contribution(*c);
+                record_own(e, connect_to_light(e, v, walk.numbers.connect, rays), record);
             for (const PathVertex& l : light) {
                 if (v.index + l.index > e.max_bounces) break;
-                if (!record.wants({v.index + 1, l.index + 1})) continue;
-                if (const auto c = connect(e, v, l, rays)) record.contribution(*c);
+                if (record.wants({v.index + 1, l.index + 1}))
+                    record_own(e, connect(e, v, l, rays), record);
             }
         }
         if (has_found_all(e, walk.index) || !scatter(walk)) return;

@@ -86,8 +86,10 @@ Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
     w.transport = Transport::radiance;
     w.roulette_start = e.roulette_start;
     w.key = camera_key(e, x, y, pass);
+    e.at(Work::sampling);
     const vec4 u = sample_4d(w.key, 0);
     const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
+    e.at(Work::shading);
     w.ray.origin = lens_point(e.camera, {u.z, u.w});
     w.ray.direction = camera_direction(e.camera, w.ray.origin, film);
     w.previous_position = w.ray.origin;
@@ -99,8 +101,10 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
                                      std::uint64_t pass) {
     std::optional<Walk> walk;
     const SampleKey key = light_key(e, subpath, pass);
+    e.at(Work::sampling);
     const vec4 u = sample_4d(key, 0);
     const float pick = sample_4d(key, 1).x;
+    e.at(Work::shading);
     const std::optional<EmissionSample> s =
         sample_emission(*e.scene, {pick, {u.x, u.y}, {u.z, u.w}});
     if (!s) return walk;
@@ -125,9 +129,13 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
 }
 
 Reached extend(const Estimator& e, Walk& w) {
-    build_at(w.point, [&] { return intersect(*e.scene, w.ray, coin(w)); });
+    e.at(Work::rays);
+    const TriangleHit hit = e.scene->accel->closest(w.ray, {e.scene}, coin(w));
+    e.at(Work::shading);
+    build_at(w.point, [&] { return surface_at(*e.scene, hit); });
     ++w.index;
     if (!w.point) {
+        e.at(Work::weights);
         if (w.index == 1)
             start_sums(e, w, 1, 1);
         else
@@ -154,12 +162,15 @@ Reached extend(const Estimator& e, Walk& w) {
     v.connectible = v.bsdf.connectible();
     const double cos_in = abs_dot(v.ng, v.to_previous);
     if (!(cos_in > 0)) return Reached::nothing;
+    e.at(Work::weights);
     if (w.index == 1)
         start_sums(e, w, cos_in, distance2);
     else
         advance_sums(e, w, cos_in / distance2, w.cos_previous / distance2);
+    e.at(Work::sampling);
     const auto u = sample_4d_pair(w.key, 2 + 2 * static_cast<std::uint32_t>(w.index));
     w.numbers = {u[0], u[1]};
+    e.at(Work::shading);
     return Reached::surface;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <optional>
 
 #include "image/pixel_filter.h"
@@ -23,6 +24,10 @@ struct PixelRect {
     std::int64_t area() const { return std::int64_t{width()} * height(); }
     bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
 };
+
+// What a worker is at, for `midway bench`, which looks now and then.
+enum class Work : std::uint8_t { other, rays, sampling, shading, weights, film };
+inline constexpr size_t work_kinds = 6;
 
 // All that an estimator needs to know apart from the sample's number.
 struct Estimator {
@@ -46,6 +51,11 @@ struct Estimator {
     // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy
     // keeps its own expectation, whatever the survival probability.
     int roulette_start = 4;
+
+    std::atomic<Work>* watch = nullptr;  // where somebody looks
+    void at(Work work) const {
+        if (watch) watch->store(work, std::memory_order_relaxed);
+    }
 
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
     // In the weights of an exponent.

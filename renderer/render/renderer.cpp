@@ -79,6 +79,7 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
     targets_.statistics = options.statistics;
     targets_.crop = estimator_.crop;
     targets_.recording = make_recording(settings);
+    estimator_.watch = options.watch;
     if (options.statistics) begin_statistics(true, strategy_count(settings.max_bounces + 1) + 1);
 }
 
@@ -104,7 +105,9 @@ bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
                 if (batch.control && !batch.control->go_on()) return false;
                 record.begin(x, y, pass);
                 estimate(estimator_, x, y, pass, scratch, record, sums.rays);
+                estimator_.at(Work::film);
                 record.end();
+                estimator_.at(Work::other);
             }
         return true;
     };

@@ -18,6 +18,7 @@ struct RendererOptions {
     bool statistics = false;       // per strategy, unless observe() decides
     std::uint64_t first_pass = 0;  // of a shard: the samples before belong to others
     bool background = false;       // workers leave the processor to others who want it
+    std::atomic<Work>* watch = nullptr;  // what the worker is at; for one thread
 };
 
 struct StrategyStatistics {

@@ -75,6 +75,13 @@ void fill_ray(RTCRay& r, const Ray& ray) {
     r.flags = 0;
 }
 
+void write(RayLog& log, const RayLog::Entry& entry) {
+    if (log.rays.size() < log.limit)
+        log.rays.push_back(entry);
+    else
+        ++log.missed;
+}
+
 }  // namespace
 
 struct Accel::Embree {
@@ -87,8 +94,10 @@ struct Accel::Embree {
 };
 
 Accel::Accel(std::shared_ptr<const Geometry> geometry)
-    : geometry_(std::move(geometry)), embree_(std::make_unique<Embree>()) {
-    Embree& e = *embree_;
+    : geometry_(std::move(geometry)) {
+    const auto embree = std::make_shared<Embree>();
+    embree_ = embree;
+    Embree& e = *embree;
     e.device = rtcNewDevice(nullptr);
     if (!e.device) throw std::runtime_error("Embree cannot start (device); check the processor");
     e.scene = rtcNewScene(e.device);
@@ -126,9 +135,13 @@ Accel::Accel(std::shared_ptr<const Geometry> geometry)
         throw std::runtime_error("Embree cannot build its tree (scene); use a smaller scene");
 }
 
+Accel::Accel(const Accel& other, RayLog& log)
+    : geometry_(other.geometry_), embree_(other.embree_), log_(&log) {}
+
 Accel::~Accel() = default;
 
 TriangleHit Accel::closest(const Ray& ray, const AlphaLookup& alpha, std::uint64_t coin) const {
+    if (log_) write(*log_, {ray, true});
     Query q;
     init_context(&q.embree);
     q.alpha = &alpha;
@@ -150,6 +163,7 @@ TriangleHit Accel::closest(const Ray& ray, const AlphaLookup& alpha, std::uint64
 }
 
 float Accel::transmittance(const Ray& ray, const AlphaLookup& alpha) const {
+    if (log_) write(*log_, {ray, false});
     Query q;
     init_context(&q.embree);
     q.alpha = &alpha;
@@ -165,6 +179,13 @@ float Accel::transmittance(const Ray& ray, const AlphaLookup& alpha) const {
 #endif
     // Embree marks an occluded ray by tfar = -inf.
     return r.tfar < 0 ? 0.0f : q.transmittance;
+}
+
+std::uint64_t Accel::replay(const RayLog& log, const AlphaLookup& alpha) const {
+    std::uint64_t met = 0;
+    for (const RayLog::Entry& e : log.rays)
+        met += e.closest ? closest(e.ray, alpha, 0).object >= 0 : transmittance(e.ray, alpha) < 1;
+    return met;
 }
 
 }  // namespace midway

@@ -8,6 +8,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "scene/geometry.h"
 
@@ -17,6 +18,17 @@ struct Ray {
     vec3 origin{0};
     vec3 direction{0, 0, 1};  // any length; tfar is in units of it
     float tfar = std::numeric_limits<float>::infinity();
+};
+
+// Rays as one thread traced them, in their order.
+struct RayLog {
+    struct Entry {
+        Ray ray;
+        bool closest = false;  // or a connection
+    };
+    std::vector<Entry> rays;
+    size_t limit = 0;          // of what is kept
+    std::uint64_t missed = 0;  // beyond it
 };
 
 struct Scene;
@@ -31,6 +43,8 @@ class Accel {
   public:
     // Keeps the geometry alive. Throws std::runtime_error where Embree refuses.
     explicit Accel(std::shared_ptr<const Geometry> geometry);
+    // The same tree, for one thread: each ray is written to `log` too.
+    Accel(const Accel& other, RayLog& log);
     ~Accel();
     Accel(const Accel&) = delete;
     Accel& operator=(const Accel&) = delete;
@@ -42,10 +56,14 @@ class Accel {
     // hit.
     float transmittance(const Ray& ray, const AlphaLookup& alpha) const;
 
+    // Traces a log once more and nothing else; returns how many rays met something.
+    std::uint64_t replay(const RayLog& log, const AlphaLookup& alpha) const;
+
   private:
     struct Embree;
     std::shared_ptr<const Geometry> geometry_;
-    std::unique_ptr<Embree> embree_;
+    std::shared_ptr<const Embree> embree_;
+    RayLog* log_ = nullptr;
 };
 
 }  // namespace midway

@@ -11,8 +11,11 @@ float AlphaLookup::operator()(const TriangleHit& hit) const {
 }
 
 std::optional<SurfacePoint> intersect(const Scene& s, const Ray& ray, std::uint64_t coin) {
+    return surface_at(s, s.accel->closest(ray, {&s}, coin));
+}
+
+std::optional<SurfacePoint> surface_at(const Scene& s, const TriangleHit& hit) {
     std::optional<SurfacePoint> point;
-    const TriangleHit hit = s.accel->closest(ray, {&s}, coin);
     if (hit.object < 0) return point;
     build_at(point.emplace(), [&] { return surface_point(s.geometry->objects[hit.object], hit); });
     return point;

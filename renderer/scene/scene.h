@@ -60,6 +60,9 @@ std::uint64_t hash_sky_map(std::uint64_t content, const Image& map);
 std::uint64_t hash_scene(std::uint64_t content, const SceneDescription& description,
                          const CameraDescription& camera);
 
+// Where a ray met the scene; empty where it left it.
+std::optional<SurfacePoint> surface_at(const Scene& scene, const TriangleHit& hit);
+
 // What a ray meets first; empty where it leaves the scene. `coin` decides about transparency.
 std::optional<SurfacePoint> intersect(const Scene& scene, const Ray& ray, std::uint64_t coin);
 
