@@ -54,7 +54,7 @@ InspectedVertex surface_vertex(const Inspection& in, const PathVertex& p, int ob
     v.connectible = p.connectible;
     v.black = p.bsdf.empty();
     v.shines = in.scene.first_light[object] >= 0;
-    v.roughness = p.bsdf.only_diffuse() ? 1 : std::sqrt(p.bsdf.alpha);
+    v.roughness = p.bsdf.only_diffuse ? 1 : std::sqrt(p.bsdf.alpha);
     v.throughput = p.throughput;
     name_object(in, object, v);
     return v;

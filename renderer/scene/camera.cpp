@@ -35,15 +35,6 @@ vec3 camera_direction(const Camera& c, const vec3& lens, const vec2& film) {
     return glm::normalize(c.position + through_center * c.focus_distance - lens);
 }
 
-std::optional<vec2> film_position(const Camera& c, const vec3& lens, const vec3& direction) {
-    const float along = glm::dot(direction, c.forward);
-    if (!(along > 0)) return {};
-    vec3 p = direction / along;
-    if (c.lens_radius > 0) p = (lens - c.position) / c.focus_distance + p;
-    return vec2(0.5f * c.width + glm::dot(p, c.right) / c.pixel_size,
-                0.5f * c.height - glm::dot(p, c.up) / c.pixel_size);
-}
-
 CameraDescription look_at(CameraDescription like, const dvec3& eye, const dvec3& target) {
     const dvec3 back = glm::normalize(eye - target);
     // Straight up or down there is no horizon; any right vector serves.

@@ -30,7 +30,14 @@ vec3 camera_direction(const Camera& camera, const vec3& lens, const vec2& film);
 
 // Where the direction from a lens point lands on the film (perhaps outside of the image); empty for
 // directions that point backwards.
-std::optional<vec2> film_position(const Camera& camera, const vec3& lens, const vec3& direction);
+inline std::optional<vec2> film_position(const Camera& c, const vec3& lens, const vec3& direction) {
+    const float along = glm::dot(direction, c.forward);
+    if (!(along > 0)) return {};
+    vec3 p = direction / along;
+    if (c.lens_radius > 0) p = (lens - c.position) / c.focus_distance + p;
+    return vec2(0.5f * c.width + glm::dot(p, c.right) / c.pixel_size,
+                0.5f * c.height - glm::dot(p, c.up) / c.pixel_size);
+}
 
 // Density per solid angle of one sample drawn uniformly over one pixel's area; cos_theta against
 // the view axis. The density of light tracing's splats and of eq. (22) is this times the sample

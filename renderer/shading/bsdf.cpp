@@ -98,7 +98,7 @@ PairSums sum_diffuse(const Bsdf& b, const vec3& o, const vec3& i, bool reflects)
 
 PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool front,
                    bool reflects) {
-    if (b.only_diffuse()) return sum_diffuse(b, o_world, i_world, reflects);
+    if (b.only_diffuse) return sum_diffuse(b, o_world, i_world, reflects);
     const SideFrame side = side_frame(b, front);
     const bool light_front = front == reflects;
     const vec3 o = to_local(b, o_world, front);
@@ -129,7 +129,7 @@ PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool
 
 LobeChoice choose_lobes(const Bsdf& b, float z) {
     LobeChoice c;
-    if (b.only_diffuse()) {
+    if (b.only_diffuse) {
         c.diffuse = b.has_diffuse() ? 1.0f : 0.0f;
         return c;
     }

@@ -39,14 +39,11 @@ struct Bsdf {
     vec3 glass_tint{1};               // of transmitted light, per interface
     float eta = 1.5f;                 // index behind the front side over that before it
     bool thin = false;
+    bool only_diffuse = false;  // nothing but Lambert's lobe: most surfaces, and cheap
 
     bool has_diffuse() const { return !is_black(diffuse); }
     bool has_specular() const { return !is_black(f90) || !is_black(f0); }
     bool has_glass() const { return !is_black(glass); }
-    // Nothing but Lambert's lobe: most surfaces, and cheap.
-    bool only_diffuse() const {
-        return !has_specular() && !has_glass() && coat_f0 == 0 && coat_f90 == 0;
-    }
     bool smooth() const;
     // Whether two directions chosen by somebody else can have f > 0.
     bool connectible() const {

@@ -151,11 +151,32 @@ std::optional<FacetOutcome> sample_facet(const Bsdf& b, const Entry& e, bool gla
     return FacetOutcome{glm::normalize(t), false};
 }
 
+// About ns on the side of ng that `gf` = from . ng tells.
+vec3 draw_diffuse(const Bsdf& b, const vec3& u, float gf) {
+    const vec3 to = to_world(b, square_to_cosine_hemisphere(vec2(u)), gf > 0);
+    // The part of the hemisphere about ns that lies below ng is folded back through the point.
+    return glm::dot(to, b.ng) * gf < 0 ? -to : to;
+}
+
+// Weight and densities of a direction drawn from a lobe that is not a delta.
+bool weigh(const Bsdf& b, const vec3& from, Transport transport, BsdfSample& s) {
+    const BsdfEval e = eval_bsdf(b, from, s.to, transport);
+    if (!(e.pdf_fwd_w > 0) || is_black(e.f)) return false;
+    s.weight = e.f * (abs_dot(s.to, b.ng) / e.pdf_fwd_w);
+    s.pdf_fwd_w = e.pdf_fwd_w;
+    s.pdf_rev_w = e.pdf_rev_w;
+    return true;
+}
+
 // sample_bsdf(); false where it draws nothing.
 bool draw(const Bsdf& b, const vec3& from, const vec3& u, Transport transport, BsdfSample& s) {
     const float gf = glm::dot(from, b.ng);
     if (gf == 0) return false;
     const bool front = gf > 0;
+    if (b.only_diffuse) {
+        s.to = draw_diffuse(b, u, gf);
+        return b.has_diffuse() && weigh(b, from, transport, s);
+    }
     const vec3 l = to_local(b, from, front);
     const float z = transport == Transport::radiance
                         ? std::abs(l.z)
@@ -165,9 +186,7 @@ bool draw(const Bsdf& b, const vec3& from, const vec3& u, Transport transport, B
     float v = u.z;
     bool crosses = false;
     if (choose(choice.diffuse, v)) {
-        s.to = to_world(b, square_to_cosine_hemisphere(vec2(u)), front);
-        // The part of the hemisphere about ns that lies below ng is folded back through the point.
-        if (glm::dot(s.to, b.ng) * gf < 0) s.to = -s.to;
+        s.to = draw_diffuse(b, u, gf);
     } else {
         const float lobes_left = choice.specular + choice.glass;
         if (!(lobes_left > 0)) return false;
@@ -182,11 +201,7 @@ bool draw(const Bsdf& b, const vec3& from, const vec3& u, Transport transport, B
         s.to = to_world(b, exit->to, front);
         crosses = !facet->reflects;
     }
-    const BsdfEval e = eval_bsdf(b, from, s.to, transport);
-    if (!(e.pdf_fwd_w > 0) || is_black(e.f)) return false;
-    s.weight = e.f * (abs_dot(s.to, b.ng) / e.pdf_fwd_w);
-    s.pdf_fwd_w = e.pdf_fwd_w;
-    s.pdf_rev_w = e.pdf_rev_w;
+    if (!weigh(b, from, transport, s)) return false;
     if (crosses && !b.thin && transport == Transport::radiance)
         s.eta_scale = 1 / sqr(eta_beyond(b, front));
     return true;

@@ -136,6 +136,7 @@ Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint
     b.f90 = vec3(metallic + specular * opaque);
     b.glass = vec3((1 - metallic) * transmission);
     b.glass_tint = base;
+    b.only_diffuse = !b.has_specular() && !b.has_glass() && b.coat_f0 == 0 && b.coat_f90 == 0;
     return b;
 }
 
