@@ -70,8 +70,8 @@ void print_text(const BenchResult& r, const std::string& technique) {
     fmt::print("  one film for all threads: {:.3f} of the time of films apart ({:.3f} to {:.3f})\n",
                r.sharing.median, r.sharing.low, r.sharing.high);
     for (const BenchResult::Scaling& s : r.scaling)
-        fmt::print("  {} thread{}: {:.3g} million samples/s\n", s.threads, s.threads == 1 ? "" : "s",
-                   1e-6 * s.samples_per_second);
+        fmt::print("  {} thread{}: {:.3g} million samples/s\n", s.threads,
+                   s.threads == 1 ? "" : "s", 1e-6 * s.samples_per_second);
 }
 
 int run(const CLI::App& command, BenchJob& job) {

@@ -44,8 +44,9 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     const Strategy k{w.index + 1, 0};
     if (!e.families.emitter_hit && !(k.s == 2 && e.direct_lamps)) return found;
     const std::optional<EmitterHit> hit =
-        reached == Reached::sky ? sky_hit(*e.scene, w.ray.direction)
-                                : emitter_hit(*e.scene, *w.point, w.vertex.to_previous);
+        reached == Reached::sky
+            ? sky_hit(*e.scene, w.ray.direction)
+            : emitter_hit(*e.scene, *w.point, w.vertex.to_previous, w.previous_position);
     if (!hit) return found;
     Contribution& c = found.emplace();
     c.strategy = k;
@@ -60,11 +61,12 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     return found;
 }
 
-std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& v,
-                                             const vec4& u, RayCounts& rays) {
+std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& v, const vec4& u,
+                                             RayCounts& rays) {
     e.at(Work::shading);
     std::optional<Contribution> found;
-    const std::optional<NextEventSample> n = sample_next_event(*e.scene, v.position, vec3(u));
+    const std::optional<NextEventSample> n =
+        sample_next_event(*e.scene, v.position, next_event_numbers(u));
     if (!n) return found;
     const BsdfEval f = eval_bsdf(v.bsdf, v.to_previous, n->direction, Transport::radiance);
     if (is_black(f.f)) return found;

@@ -46,7 +46,8 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     l.pdf_origin = w.light_pdfs.origin;
     l.pdf_a = w.light_pdfs.leave * cos_in / (w.infinite_light ? 1 : distance2);
     l.g_light = w.infinite_light ? 1 : w.cos_previous / distance2;
-    l.next_event_ratio = double(w.light_pdfs.next_event) / w.light_pdfs.origin;
+    l.next_event_ratio = next_event_ratio(*e.scene, w.light, w.vertex.position);
+    w.light_pdfs.next_event = static_cast<float>(w.light_pdfs.origin * l.next_event_ratio);
     for_each_exponent(e, [&](const auto& h, int i) {
         l.hittable = w.hittable_light && e.weighed[i].emitter_hit;
         w.vertex.mis[i] = mis::start_light(h, l);
@@ -103,7 +104,8 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
     const SampleKey key = light_key(e, subpath, pass);
     e.at(Work::sampling);
     const vec4 u = sample_4d(key, 0);
-    const float pick = sample_4d(key, 1).x;
+    const vec4 more = sample_4d(key, 1);
+    const double pick = fine_number(more.x, more.y);
     e.at(Work::shading);
     const std::optional<EmissionSample> s =
         sample_emission(*e.scene, {pick, {u.x, u.y}, {u.z, u.w}});

@@ -77,11 +77,19 @@ struct PathVertex {
     bool connectible = false;
 };
 
+// A number with 48 bits from two with 24; the first alone decides where it lies, nearly.
+inline double fine_number(float coarse, float fine) { return coarse + 0x1p-24 * double(fine); }
+
 // Random numbers that a vertex uses: for the walk's next direction and roulette, and for next event
 // or the lens.
 struct VertexNumbers {
     vec4 scatter{0}, connect{0};
 };
+
+// What next event makes of a vertex's numbers.
+inline NextEventNumbers next_event_numbers(const vec4& u) {
+    return {fine_number(u.x, u.w), {u.y, u.z}};
+}
 
 struct Walk {
     Transport transport = Transport::radiance;

@@ -19,6 +19,7 @@ struct Distribution1D {
 
     int size() const { return static_cast<int>(cdf.size()) - 1; }
     double probability(int i) const { return cdf[i + 1] - cdf[i]; }
+    bool operator==(const Distribution1D&) const = default;
 };
 
 struct DiscreteSample {

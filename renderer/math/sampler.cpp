@@ -93,9 +93,8 @@ Lanes owen_sobol_lanes(std::uint32_t index, std::uint64_t seed) {
     // Shuffling the index decorrelates the groups of one sample.
     const std::uint32_t shuffled =
         scramble_reversed(reverse_bits(index), static_cast<std::uint32_t>(a));
-    const Lanes scrambles = {
-        static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b),
-        static_cast<std::uint32_t>(b >> 32), static_cast<std::uint32_t>(c)};
+    const Lanes scrambles = {static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b),
+                             static_cast<std::uint32_t>(b >> 32), static_cast<std::uint32_t>(c)};
     return reverse_bits(scramble_reversed(sobol_of_reversed(shuffled), scrambles));
 }
 

@@ -13,11 +13,11 @@
 namespace midway {
 
 struct RendererOptions {
-    int threads = 0;               // 0: all processors
-    int layer_edges = 0;           // > 0: strategy layers for paths of up to so many edges
-    bool statistics = false;       // per strategy, unless observe() decides
-    std::uint64_t first_pass = 0;  // of a shard: the samples before belong to others
-    bool background = false;       // workers leave the processor to others who want it
+    int threads = 0;                     // 0: all processors
+    int layer_edges = 0;                 // > 0: strategy layers for paths of up to so many edges
+    bool statistics = false;             // per strategy, unless observe() decides
+    std::uint64_t first_pass = 0;        // of a shard: the samples before belong to others
+    bool background = false;             // workers leave the processor to others who want it
     std::atomic<Work>* watch = nullptr;  // what the worker is at; for one thread
 };
 

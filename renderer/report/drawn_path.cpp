@@ -116,12 +116,13 @@ int light_of(const Scene& scene, const TriangleHit& hit) {
 
 using Visit = std::function<void(DrawnPath&)>;
 
-LightEnd end_of(const Walk& start) {
+LightEnd end_of(const RecordedWalk& light) {
+    const Walk& start = light.start;
     return {start.infinite_light ? -start.ray.direction : start.previous_position,
             start.infinite_light,
             start.hittable_light,
             start.cos_previous,
-            start.light_pdfs,
+            light.now.light_pdfs,  // next event's are known from the first vertex on
             start.light};
 }
 
@@ -132,7 +133,7 @@ void visit_light_tracing(const Estimator& e, const RecordedWalk& light, const Vi
     const std::optional<Splat> s = connect_to_camera(e, v, u, rays);
     if (!s) return;
     const vec3 lens = lens_point(e.camera, {u.x, u.y});
-    DrawnPath p = join({}, 0, &light, v.index, end_of(light.start), lens);
+    DrawnPath p = join({}, 0, &light, v.index, end_of(light), lens);
     p.contribution = s->contribution;
     p.x = s->x;
     p.y = s->y;
@@ -152,9 +153,10 @@ void visit_hit(const Estimator& e, const RecordedWalk& camera, Reached reached,
     end.infinite = reached == Reached::sky;
     end.position = end.infinite ? w.ray.direction : w.vertex.position;
     end.cosine = end.infinite ? 1 : abs_dot(w.vertex.ng, w.vertex.to_previous);
-    end.pdfs = (end.infinite ? sky_hit(*e.scene, w.ray.direction)
-                             : emitter_hit(*e.scene, *w.point, w.vertex.to_previous))
-                   ->pdfs;
+    end.pdfs =
+        (end.infinite ? sky_hit(*e.scene, w.ray.direction)
+                      : emitter_hit(*e.scene, *w.point, w.vertex.to_previous, w.previous_position))
+            ->pdfs;
     end.id = end.infinite ? e.scene->sky_light : light_of(*e.scene, w.point->hit);
     DrawnPath p = join(camera, w.index - 1, nullptr, 0, end, camera.start.ray.origin);
     p.contribution = *c;
@@ -169,7 +171,7 @@ void visit_next_event(const Estimator& e, const RecordedWalk& camera, const Visi
     RayCounts rays;
     const std::optional<Contribution> c = connect_to_light(e, v, u, rays);
     if (!c) return;
-    const NextEventSample n = *sample_next_event(*e.scene, v.position, vec3(u));
+    const NextEventSample n = *sample_next_event(*e.scene, v.position, next_event_numbers(u));
     const LightKind kind = e.scene->lights[n.light].kind;
     const LightEnd end{is_infinite(kind) ? n.direction : n.target,
                        is_infinite(kind),
@@ -195,7 +197,7 @@ void visit_connections(const Estimator& e, const RecordedWalk& camera, const Rec
         const std::optional<Contribution> c = connect(e, v, l, rays);
         if (!c) continue;
         DrawnPath p =
-            join(camera, v.index, &light, l.index, end_of(light.start), camera.start.ray.origin);
+            join(camera, v.index, &light, l.index, end_of(light), camera.start.ray.origin);
         p.contribution = *c;
         add_camera_pdfs(p, camera, v.index - 1);
         add_light_pdfs(p, light, l.index - 1);
@@ -251,7 +253,7 @@ void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
         const std::optional<SurfacePoint> p = intersect(*e.scene, ray, 0);
         // A leaf in between is another story.
         if (p && length_squared(p->position - path.light) < 1e-8f)
-            hit = emitter_hit(*e.scene, *p, -d);
+            hit = emitter_hit(*e.scene, *p, -d, v.position);
     }
     if (!hit) return;
     own.emission = hit->pdfs.origin;

@@ -139,9 +139,10 @@ CaseResult emission(const CaseContext&) {
             for_pairs([&](const vec2& point) {
                 for_pairs([&](const vec2& direction) {
                     const auto e = sample_emission(*scene, {pick, point, direction});
-                    d.expect(!e || (good(e->pdfs) && not_negative(e->weight) &&
-                                    unit(e->direction) && e->cos_theta > 0),
-                             "emission", {pick, point.x, point.y, direction.x, direction.y});
+                    d.expect(
+                        !e || (good(e->pdfs.origin) && good(e->pdfs.leave) &&
+                               not_negative(e->weight) && unit(e->direction) && e->cos_theta > 0),
+                        "emission", {pick, point.x, point.y, direction.x, direction.y});
                 });
             });
     }
@@ -153,7 +154,8 @@ CaseResult next_event(const CaseContext&) {
     Draws d;
     const auto scene = build(lit_by_all());
     std::vector<float> picks(std::begin(ends), std::end(ends));
-    for (const double c : scene->next_event_pick.cdf) {
+    for (int i = 0; i < 64; ++i) picks.push_back(float(i) / 64);
+    for (const double c : scene->next_event_group.cdf) {
         const float u = std::min(float(c), 1 - 0x1p-24f);
         for (const float x : {u, std::nextafter(u, 0.0f), std::nextafter(u, 1.0f)})
             if (x >= 0 && x < 1) picks.push_back(x);
@@ -165,7 +167,7 @@ CaseResult next_event(const CaseContext&) {
     for (const vec3& reference : references)
         for (const float pick : picks)
             for_pairs([&](const vec2& u) {
-                const auto n = sample_next_event(*scene, reference, {pick, u.x, u.y});
+                const auto n = sample_next_event(*scene, reference, {pick, u});
                 // A spot's own density is zero outside of its cone, where it sends nothing.
                 d.expect(!n || (good(n->pdfs) && not_negative(n->value) && unit(n->direction)),
                          "next event", {pick, u.x, u.y});

@@ -93,8 +93,7 @@ struct Accel::Embree {
     }
 };
 
-Accel::Accel(std::shared_ptr<const Geometry> geometry)
-    : geometry_(std::move(geometry)) {
+Accel::Accel(std::shared_ptr<const Geometry> geometry) : geometry_(std::move(geometry)) {
     const auto embree = std::make_shared<Embree>();
     embree_ = embree;
     Embree& e = *embree;

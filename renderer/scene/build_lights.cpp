@@ -1,6 +1,8 @@
 #include "scene/build_lights.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace midway {
 namespace {
@@ -120,7 +122,50 @@ void add_sky(Scene& s, const SkyDescription& d, const Sky* previous) {
     s.lights.push_back(l);
 }
 
-void make_light_tables(Scene& s) {
+LightBounds bounds_of(const Scene& s, const Light& l) {
+    if (l.kind == LightKind::point) return {l.position, l.position};
+    if (l.kind == LightKind::spot) return {l.position, l.position, l.direction, false};
+    const Object& o = s.geometry->objects[l.object];
+    const uvec3& t = o.triangles[l.triangle];
+    const vec3 &a = o.positions[t.x], &b = o.positions[t.y], &c = o.positions[t.z];
+    return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
+            triangle_shape(o, l.triangle).normal, l.two_sided};
+}
+
+// Whether the tree over the lights of both has the same shape; both have one geometry.
+bool same_shape(const Scene& a, const Scene& b) {
+    const auto same = [](const Light& x, const Light& y) {
+        return x.kind == y.kind && x.object == y.object && x.triangle == y.triangle &&
+               x.two_sided == y.two_sided && (x.power > 0) == (y.power > 0) &&
+               x.position == y.position && x.direction == y.direction && x.cos_outer == y.cos_outer;
+    };
+    return a.geometry == b.geometry &&
+           std::equal(a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(), same);
+}
+
+// `weights`: of next event, for each light.
+void make_light_tree(Scene& s, std::vector<double> weights, const Scene* previous) {
+    std::vector<double> groups{0};
+    for (size_t i = 0; i < s.lights.size(); ++i) {
+        if (is_infinite(s.lights[i].kind)) {
+            s.infinite_lights.push_back(static_cast<int>(i));
+            groups.push_back(std::exchange(weights[i], 0.0));
+        } else {
+            groups[0] += weights[i];
+        }
+    }
+    s.next_event_group = make_distribution(groups);
+    if (previous && same_shape(*previous, s)) {
+        s.light_tree = previous->light_tree;
+        return s.light_tree.reweigh(weights);
+    }
+    std::vector<LightBounds> bounds(s.lights.size());
+    for (size_t i = 0; i < bounds.size(); ++i)
+        if (weights[i] > 0) bounds[i] = bounds_of(s, s.lights[i]);
+    s.light_tree.build(bounds, weights);
+}
+
+void make_light_tables(Scene& s, const Scene* previous) {
     std::vector<double> power, next_event;
     power.reserve(s.lights.size());
     next_event.reserve(s.lights.size());
@@ -138,7 +183,7 @@ void make_light_tables(Scene& s) {
         next_event.push_back(
             p > 0 ? (1 - even_share) * p / s.total_power + even_share / double(shining) : 0.0);
     s.emission_pick = make_distribution(power);
-    s.next_event_pick = make_distribution(next_event);
+    make_light_tree(s, std::move(next_event), previous);
 }
 
 size_t count_lights(const Scene& s, const SceneDescription& d) {
@@ -158,7 +203,7 @@ void build_lights(Scene& s, const SceneDescription& d, const Scene* previous) {
     for (const PunctualLight& l : d.lights)
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
-    make_light_tables(s);
+    make_light_tables(s, previous);
 }
 
 }  // namespace midway

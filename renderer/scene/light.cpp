@@ -1,5 +1,7 @@
 #include "scene/light.h"
 
+#include <algorithm>
+
 #include "math/warp.h"
 #include "scene/scene.h"
 
@@ -44,23 +46,32 @@ vec3 disc_point(const Scene& s, const vec3& travel, const vec2& u) {
 float emission_probability(const Scene& s, int light) {
     return static_cast<float>(s.emission_pick.probability(light));
 }
-float next_event_probability(const Scene& s, int light) {
-    return static_cast<float>(s.next_event_pick.probability(light));
+
+// Next event's for lights at infinity.
+double group_probability(const Scene& s, int light) {
+    const auto i = std::find(s.infinite_lights.begin(), s.infinite_lights.end(), light);
+    return s.next_event_group.probability(static_cast<int>(i - s.infinite_lights.begin()) + 1);
 }
 
-// Densities of a point on an area light with the emitted direction at cosine cos_theta.
-LightPdfs area_pdfs(const Scene& s, int light, float cos_theta) {
+double next_event_probability(const Scene& s, int light, const vec3& reference) {
+    if (is_infinite(s.lights[light].kind)) return group_probability(s, light);
+    return s.next_event_group.probability(0) * s.light_tree.probability(light, reference);
+}
+
+// Densities of a point on an area light with the emitted direction at cosine cos_theta, picked by
+// next event with probability `pick`.
+LightPdfs area_pdfs(const Scene& s, int light, float cos_theta, double pick) {
     const Light& l = s.lights[light];
     const float sides = l.two_sided ? 0.5f : 1.0f;
     return {emission_probability(s, light) / l.area,
             sides * cosine_hemisphere_pdf_w(std::abs(cos_theta)),
-            next_event_probability(s, light) / l.area};
+            static_cast<float>(pick) / l.area};
 }
 
 LightPdfs sky_pdfs(const Scene& s, const vec3& direction) {
     const float pdf_w = sky_pdf_w(*s.sky, direction);
     return {emission_probability(s, s.sky_light) * pdf_w, disc_pdf(s),
-            next_event_probability(s, s.sky_light) * pdf_w};
+            static_cast<float>(group_probability(s, s.sky_light)) * pdf_w};
 }
 
 TriangleHit area_place(const Light& l, const vec2& u) {
@@ -93,28 +104,28 @@ void emit_area(const Scene& s, int id, const EmissionNumbers& u, EmissionSample&
     e.normal = p.ng * side;
     e.direction = frame_from_normal(e.normal).to_world(local);
     e.cos_theta = local.z;
-    e.pdfs = area_pdfs(s, id, local.z);
+    e.pdfs = area_pdfs(s, id, local.z, 0);
     e.weight = area_emission(s, place) * (local.z / (e.pdfs.origin * e.pdfs.leave));
 }
 
 void emit_punctual(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
     const Light& l = s.lights[id];
-    const float pick = emission_probability(s, id), pick_next = next_event_probability(s, id);
+    const float pick = emission_probability(s, id);
     if (l.kind == LightKind::directional) {
         e.position = disc_point(s, l.direction, u.point);
         e.direction = l.direction;
-        e.pdfs = {pick, disc_pdf(s), pick_next};
+        e.pdfs = {pick, disc_pdf(s), 0};
         e.weight = l.emission / (pick * e.pdfs.leave);
     } else if (l.kind == LightKind::point) {
         e.position = l.position;
         e.direction = square_to_sphere(u.direction);
-        e.pdfs = {pick, sphere_pdf_w, pick_next};
+        e.pdfs = {pick, sphere_pdf_w, 0};
         e.weight = l.emission / (pick * e.pdfs.leave);
     } else {
         const float c = sample_spot_cosine(l, u.direction.x);
         e.position = l.position;
         e.direction = frame_from_normal(l.direction).to_world(direction_from_z(c, u.direction.y));
-        e.pdfs = {pick, spot_pdf_w(l, c), pick_next};
+        e.pdfs = {pick, spot_pdf_w(l, c), 0};
         e.weight = l.emission * (2 * pi * spot_integral(l) / pick);
     }
     e.normal = e.direction;
@@ -126,12 +137,14 @@ void emit_sky(const Scene& s, const EmissionNumbers& u, EmissionSample& e) {
     e.position = disc_point(s, e.direction, u.point);
     e.normal = e.direction;
     e.pdfs = sky_pdfs(s, sample.direction);
+    e.pdfs.next_event = 0;
     e.weight = sky_radiance(*s.sky, sample.direction) / (e.pdfs.origin * e.pdfs.leave);
 }
 
-void next_event_area(const Scene& s, int id, const vec3& reference, const vec2& u,
+// n.light has been picked with probability `pick`.
+void next_event_area(const Scene& s, double pick, const vec3& reference, const vec2& u,
                      NextEventSample& n) {
-    const Light& l = s.lights[id];
+    const Light& l = s.lights[n.light];
     const TriangleHit place = area_place(l, u);
     const TrianglePoint p = triangle_point(s.geometry->objects[l.object], place);
     const vec3 d = p.position - reference;
@@ -144,13 +157,13 @@ void next_event_area(const Scene& s, int id, const vec3& reference, const vec2& 
     n.normal = p.ng;
     n.error = p.error;
     n.cos_theta = std::abs(c);
-    n.pdfs = area_pdfs(s, id, c);
+    n.pdfs = area_pdfs(s, n.light, c, pick);
     n.value = area_emission(s, place) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
 }
 
-void next_event_punctual(const Scene& s, int id, const vec3& reference, NextEventSample& n) {
-    const Light& l = s.lights[id];
-    const float pick = emission_probability(s, id), pick_next = next_event_probability(s, id);
+void next_event_punctual(const Scene& s, double picked, const vec3& reference, NextEventSample& n) {
+    const Light& l = s.lights[n.light];
+    const float pick = emission_probability(s, n.light), pick_next = static_cast<float>(picked);
     if (l.kind == LightKind::directional) {
         n.direction = -l.direction;
         n.value = l.emission / pick_next;
@@ -166,6 +179,20 @@ void next_event_punctual(const Scene& s, int id, const vec3& reference, NextEven
     const bool spot = l.kind == LightKind::spot;
     n.pdfs = {pick, spot ? spot_pdf_w(l, c) : sphere_pdf_w, pick_next};
     n.value = l.emission * ((spot ? spot_falloff(l, c) : 1.0f) / (n.distance_squared * pick_next));
+}
+
+// The light that next event asks, with its probability.
+double pick_light(const Scene& s, const vec3& reference, double u, int& light) {
+    const int group = find_interval(s.next_event_group, u);
+    const double p = s.next_event_group.probability(group);
+    if (group > 0) {
+        light = s.infinite_lights[static_cast<size_t>(group) - 1];
+        return p;
+    }
+    const double inside = std::clamp((u - s.next_event_group.cdf[0]) / p, 0.0, 1 - 0x1p-53);
+    double of_tree = 0;
+    light = s.light_tree.sample(reference, inside, of_tree);
+    return p * of_tree;
 }
 
 }  // namespace
@@ -189,27 +216,31 @@ std::optional<EmissionSample> sample_emission(const Scene& s, const EmissionNumb
 }
 
 std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& reference,
-                                                 const vec3& u) {
+                                                 const NextEventNumbers& u) {
     std::optional<NextEventSample> found;
-    if (!(s.next_event_pick.total > 0)) return found;
-    const int id = find_interval(s.next_event_pick, u.x);
-    const LightKind kind = s.lights[id].kind;
+    if (!(s.next_event_group.total > 0)) return found;
     NextEventSample& n = found.emplace();
-    n.light = id;
+    const double pick = pick_light(s, reference, u.pick, n.light);
+    const LightKind kind = s.lights[n.light].kind;
     if (kind == LightKind::area) {
-        next_event_area(s, id, reference, {u.y, u.z}, n);
+        next_event_area(s, pick, reference, u.point, n);
     } else if (kind == LightKind::sky) {
-        n.direction = sample_sky(*s.sky, {u.y, u.z}).direction;
+        n.direction = sample_sky(*s.sky, u.point).direction;
         n.pdfs = sky_pdfs(s, n.direction);
         n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
     } else {
-        next_event_punctual(s, id, reference, n);
+        next_event_punctual(s, pick, reference, n);
     }
     if (is_black(n.value)) found.reset();
     return found;
 }
 
-std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards) {
+double next_event_ratio(const Scene& s, int light, const vec3& reference) {
+    return next_event_probability(s, light, reference) / s.emission_pick.probability(light);
+}
+
+std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards,
+                                      const vec3& reference) {
     const int first = s.first_light[p.hit.object];
     if (first < 0) return {};
     const int id = first + p.hit.triangle;
@@ -219,7 +250,7 @@ std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, con
     // Coverage has been decided by the coin that let the ray hit.
     const vec3 radiance = material_emission(material_at(s, p), s.textures, p.shading);
     if (is_black(radiance)) return {};
-    return EmitterHit{radiance, area_pdfs(s, id, c)};
+    return EmitterHit{radiance, area_pdfs(s, id, c, next_event_probability(s, id, reference))};
 }
 
 std::optional<EmitterHit> sky_hit(const Scene& s, const vec3& direction) {

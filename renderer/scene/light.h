@@ -8,7 +8,8 @@
 //                        finite                          infinite
 //   pdf_origin           per area, times the pick        per solid angle, times the pick
 //   pdf_leave            per solid angle                 per area of the disc
-//   pdf_next_event       as pdf_origin, but with the densities that next event uses
+//   pdf_next_event       as pdf_origin, but with the probability that next event picks the light
+//                        with, which depends on the place that asks (light_tree.h)
 // A Dirac factor (a point's position, a sun's direction) is left out: the pick alone remains.
 #pragma once
 
@@ -49,8 +50,8 @@ struct EmissionSample {
     float error = 0;   // of the position, finite lights with a surface
     vec3 normal{0};    // of the emitting side; the direction itself for lights without a surface
     vec3 direction{0};
-    vec3 weight{0};  // Le |cos| / (pdf_origin pdf_leave)
-    LightPdfs pdfs;
+    vec3 weight{0};       // Le |cos| / (pdf_origin pdf_leave)
+    LightPdfs pdfs;       // next_event is left zero: nobody asks yet
     float cos_theta = 1;  // of the direction at the origin; 1 without a surface
 };
 

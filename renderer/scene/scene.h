@@ -10,6 +10,7 @@
 #include "scene/accel.h"
 #include "scene/camera.h"
 #include "scene/light.h"
+#include "scene/light_tree.h"
 #include "scene/scene_description.h"
 
 namespace midway {
@@ -24,8 +25,12 @@ struct Scene {
     std::vector<Material> materials;
     TextureSet textures;
     std::vector<Light> lights;
-    Distribution1D emission_pick;    // by power
-    Distribution1D next_event_pick;  // by power, with a share spread evenly
+    Distribution1D emission_pick;  // by power
+    // Next event asks one of the lights at infinity or, entry 0, the tree about all others; by
+    // power, with a share spread evenly over the lights.
+    Distribution1D next_event_group;
+    std::vector<int> infinite_lights;  // entries 1, 2, ...
+    LightTree light_tree;
     std::optional<Sky> sky;
     int sky_light = -1;
     std::vector<int> first_light;  // of each object: the light of its triangle 0, or -1
@@ -76,20 +81,28 @@ inline const Material& material_at(const Scene& scene, const SurfacePoint& p) {
     return scene.materials[scene.geometry->objects[p.hit.object].material];
 }
 
-// u: 0 chooses the light, 1-2 the point, 3-4 the direction. Empty where the sample carries nothing.
+// Empty where the sample carries nothing. Picks have more bits than a float, so that each of many
+// lights has its own probability.
 struct EmissionNumbers {
-    float pick = 0;
+    double pick = 0;
     vec2 point{0}, direction{0};
 };
 std::optional<EmissionSample> sample_emission(const Scene& scene, const EmissionNumbers& u);
 
-// u.x chooses the light, u.yz the point on it.
+struct NextEventNumbers {
+    double pick = 0;
+    vec2 point{0};
+};
 std::optional<NextEventSample> sample_next_event(const Scene& scene, const vec3& reference,
-                                                 const vec3& u);
+                                                 const NextEventNumbers& u);
 
-// What the surface emits towards `towards`, with its densities; empty where it emits nothing there.
+// How much likelier next event at `reference` picks a light than emission does.
+double next_event_ratio(const Scene& scene, int light, const vec3& reference);
+
+// What the surface emits towards `towards`, with its densities; those of next event at `reference`.
+// Empty where it emits nothing there.
 std::optional<EmitterHit> emitter_hit(const Scene& scene, const SurfacePoint& p,
-                                      const vec3& towards);
+                                      const vec3& towards, const vec3& reference);
 
 // The same for a ray that left the scene in `direction`.
 std::optional<EmitterHit> sky_hit(const Scene& scene, const vec3& direction);

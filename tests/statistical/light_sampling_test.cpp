@@ -212,7 +212,8 @@ TEST_F(LightSampling, SkyIsDrawnWhereverItShines) {
         uniform.add(4 * pi_d * luminance(sky_radiance(sky, square_to_sphere(random.next2()))));
     }
     EXPECT_GT(z_test(drawn.estimate(), uniform.estimate()), alarm);
-    // All channels keep one ratio in this map: the mean over the sphere, which the power is made of.
+    // All channels keep one ratio in this map: the mean over the sphere, which the power is made
+    // of.
     const vec3 tint(1, 0.5f, 0.25f);
     const double mean = sky.mean_radiance / ((1.75 / 3) / luminance(tint)) * 4 * pi_d;
     EXPECT_NEAR(drawn.estimate().mean / mean, 1, 0.02);
@@ -234,7 +235,7 @@ TEST_F(LightSampling, NextEventFindsTheIrradianceOfEveryLight) {
     std::vector<RunningMean> found(scene->lights.size());
     Random random(60);
     for (int i = 0; i < 400'000; ++i) {
-        const auto e = sample_next_event(*scene, reference, random.next3());
+        const auto e = sample_next_event(*scene, reference, {random.next(), random.next2()});
         for (size_t k = 0; k < found.size(); ++k)
             found[k].add(e && e->light == int(k)
                              ? luminance(e->value) * std::max(0.0f, e->direction.y)

@@ -163,7 +163,8 @@ TEST(SceneEdits, StepByStepIsTheSameAsLoading) {
             EXPECT_EQ(now.hash, fresh.hash);
             EXPECT_EQ(now.warnings, fresh.warnings);
             EXPECT_EQ(now.default_sky, fresh.default_sky);
-            EXPECT_EQ(now.scene->next_event_pick.cdf, fresh.scene->next_event_pick.cdf);
+            EXPECT_EQ(now.scene->next_event_group.cdf, fresh.scene->next_event_group.cdf);
+            EXPECT_TRUE(now.scene->light_tree == fresh.scene->light_tree);
             EXPECT_TRUE(pixels(now) == pixels(fresh));
         }
         const PreparedScene back = update_scene(now, first.options);
