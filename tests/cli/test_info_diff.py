@@ -21,6 +21,22 @@ class Info(CliTest):
             self.assertIn(word, text)
 
 
+class Bench(CliTest):
+    def test_speaks_json_and_text(self):
+        options = ("--size", "24x24", "--rounds", 1, "--threads", 2)
+        told = json.loads(self.run_midway("bench", self.scene, *options, "--json").stdout)
+        for key in ("limit_ratio", "samples_per_second", "rays_per_second", "sharing", "scaling"):
+            self.assertIn(key, told)
+        self.assertAlmostEqual(1, sum(told["shares"].values()), places=6)
+        self.assertEqual([1, 2], [s["threads"] for s in told["scaling"]])
+        text = self.run_midway("bench", self.scene, "--technique", "path", *options).stdout
+        self.assertIn("the same rays alone", text)
+
+    def test_refuses_wrong_usage(self):
+        self.refused("bench", self.scene, "--rounds", 0, status=2)
+        self.refused("bench", self.out / "nowhere.glb", status=1)
+
+
 class Diff(CliTest):
     def setUp(self):
         super().setUp()
