@@ -6,15 +6,10 @@ namespace midway {
 namespace lobes {
 namespace {
 
-// What the coat leaves over for the diffuse lobe in direction cosine mu.
-float below_coat(const Bsdf& b, float mu) {
-    if (b.coat_f90 == 0 && b.coat_f0 == 0) return 1;
-    const SchlickAlbedo e = directional_albedo(mu, b.alpha);
-    return std::max(0.0f, 1 - b.coat_f0 * e.a - b.coat_f90 * e.b);
-}
+bool has_coat(const Bsdf& b) { return b.coat_f90 != 0 || b.coat_f0 != 0; }
 
 float coat_normalisation(const Bsdf& b) {
-    if (b.coat_f90 == 0 && b.coat_f0 == 0) return 1;
+    if (!has_coat(b)) return 1;
     const SchlickAlbedo e = average_albedo(b.alpha);
     return 1 / std::max(1e-4f, 1 - b.coat_f0 * e.a - b.coat_f90 * e.b);
 }
@@ -104,13 +99,15 @@ PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool
     const vec3 o = to_local(b, o_world, front);
     const vec3 i = to_local(b, i_world, light_front);
     const LightSide light = light_side(side_frame(b, light_front), i);
-    const LobeChoice choice_o = choose_lobes(b, std::abs(o.z));
-    const LobeChoice choice_i = choose_lobes(b, light_cosine(light));
+    const float mu_o = std::abs(o.z), mu_i = std::abs(i.z), z_i = light_cosine(light);
+    const LayerAlbedo at_o = layer_albedo(b, mu_o), at_i = layer_albedo(b, z_i);
+    const LobeChoice choice_o = choose_lobes(b, mu_o, at_o);
+    const LobeChoice choice_i = choose_lobes(b, z_i, at_i);
     PairSums sums;
     if (reflects && b.has_diffuse()) {
-        const float mu_o = std::abs(o.z), mu_i = std::abs(i.z);
-        sums.value = b.diffuse * (inv_pi * mu_i * below_coat(b, mu_o) * below_coat(b, mu_i) *
-                                  coat_normalisation(b));
+        // Where the light's direction was folded, the diffuse lobe sees its own cosine.
+        const float below_i = mu_i == z_i ? at_i.below : layer_albedo(b, mu_i).below;
+        sums.value = b.diffuse * (inv_pi * mu_i * at_o.below * below_i * coat_normalisation(b));
         sums.pdf_light = choice_o.diffuse * cosine_hemisphere_pdf_w(mu_i);
         sums.pdf_camera = choice_i.diffuse * cosine_hemisphere_pdf_w(mu_o);
     }
@@ -127,19 +124,25 @@ PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool
 
 }  // namespace
 
-LobeChoice choose_lobes(const Bsdf& b, float z) {
+LayerAlbedo layer_albedo(const Bsdf& b, float mu) {
+    LayerAlbedo l;
+    if (!has_coat(b) && !b.has_specular()) return l;
+    l.specular = directional_albedo(mu, b.alpha);
+    if (has_coat(b))
+        l.below = std::max(0.0f, 1 - b.coat_f0 * l.specular.a - b.coat_f90 * l.specular.b);
+    return l;
+}
+
+LobeChoice choose_lobes(const Bsdf& b, float z, const LayerAlbedo& at_z) {
     LobeChoice c;
     if (b.only_diffuse) {
         c.diffuse = b.has_diffuse() ? 1.0f : 0.0f;
         return c;
     }
-    const float mu = std::min(1.0f, z);
-    if (b.has_diffuse()) c.diffuse = max_component(b.diffuse) * below_coat(b, mu);
+    if (b.has_diffuse()) c.diffuse = max_component(b.diffuse) * at_z.below;
     if (z > 0) {
-        if (b.has_specular()) {
-            const SchlickAlbedo e = directional_albedo(mu, b.alpha);
-            c.specular = max_component(b.f0 * e.a + b.f90 * e.b);
-        }
+        if (b.has_specular())
+            c.specular = max_component(b.f0 * at_z.specular.a + b.f90 * at_z.specular.b);
         if (b.has_glass()) c.glass = max_component(b.glass);
     }
     // Where the coat takes nearly all, the layer below still needs a chance: f > 0 there.

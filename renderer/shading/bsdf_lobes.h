@@ -43,9 +43,7 @@ inline vec3 above(const vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 
 // Index beyond the surface over that on this side.
 // A thin sheet shows its outer face on both sides.
-inline float eta_beyond(const Bsdf& b, bool front) {
-    return front || b.thin ? b.eta : 1 / b.eta;
-}
+inline float eta_beyond(const Bsdf& b, bool front) { return front || b.thin ? b.eta : 1 / b.eta; }
 
 // The lobe's directions that end in the light-side direction i, in i's own frame (above: z > 0).
 struct LightSide {
@@ -71,7 +69,19 @@ inline int camera_folds(const SideFrame& s, const vec3& o) {
 struct LobeChoice {
     float diffuse = 0, specular = 0, glass = 0;
 };
-LobeChoice choose_lobes(const Bsdf& b, float z);
+
+// What the specular lobe or the coat takes at a cosine, and what is left for the layer below:
+// looked up once for all who ask.
+struct LayerAlbedo {
+    SchlickAlbedo specular;
+    float below = 1;
+};
+LayerAlbedo layer_albedo(const Bsdf& b, float mu);
+
+LobeChoice choose_lobes(const Bsdf& b, float z, const LayerAlbedo& at_z);
+inline LobeChoice choose_lobes(const Bsdf& b, float z) {
+    return choose_lobes(b, z, b.only_diffuse ? LayerAlbedo{} : layer_albedo(b, z));
+}
 
 // Reflectance of one interface, or of a thin sheet with all orders of internal reflection.
 inline float glass_reflectance(const Bsdf& b, float cos_h, float eta) {
