@@ -144,9 +144,9 @@ Middle middle_of(std::vector<double> v) {
 BenchResult run_bench(const std::shared_ptr<const Scene>& scene, const CameraDescription& camera,
                       const RenderSettings& settings, const BenchOptions& options,
                       const std::function<void(const char*, double)>& progress) {
-    const int processors = std::max(1u, std::thread::hardware_concurrency());
-    const Bench b{scene, camera, settings, options,
-                  options.threads > 0 ? options.threads : processors};
+    Bench b{scene, camera, settings, options, options.threads};
+    const auto together = b.renderer(options.threads);
+    b.threads = together->threads();
     const auto tell = [&](const char* what, double done) {
         if (progress) progress(what, done);
     };
@@ -157,7 +157,6 @@ BenchResult run_bench(const std::shared_ptr<const Scene>& scene, const CameraDes
         kept += double(log.rays.size());
         traced += double(log.rays.size()) + double(log.missed);
     }
-    const auto together = b.renderer(b.threads);
     const auto apart = b.renderers_apart();
     BenchResult result;
     result.threads = b.threads;

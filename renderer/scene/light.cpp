@@ -49,7 +49,8 @@ float emission_probability(const Scene& s, int light) {
 
 // Next event's for lights at infinity.
 double group_probability(const Scene& s, int light) {
-    const auto i = std::find(s.infinite_lights.begin(), s.infinite_lights.end(), light);
+    // In the order of the lights: a file may hold thousands of suns.
+    const auto i = std::lower_bound(s.infinite_lights.begin(), s.infinite_lights.end(), light);
     return s.next_event_group.probability(static_cast<int>(i - s.infinite_lights.begin()) + 1);
 }
 

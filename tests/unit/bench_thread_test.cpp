@@ -27,11 +27,12 @@ SceneDescription room() {
     return d;
 }
 
+CameraDescription eye() { return camera_at({0, 1, 3}, {0, 0.7f, 0}, 0.8); }
+
 TEST(Bench, ALogHoldsTheRaysThatWereTraced) {
     const auto scene = build(room());
-    const CameraDescription camera = camera_at({0, 1, 3}, {0, 0.7f, 0}, 0.8);
-    RenderSettings s;
-    s.width = s.height = 24;
+    const CameraDescription camera = eye();
+    const RenderSettings s = settings(Technique::bdpt, 24, 16);
     RayLog log;
     log.limit = 1'000'000;
     auto watched = std::make_shared<Scene>(*scene);
@@ -57,15 +58,13 @@ TEST(Bench, ALogHoldsTheRaysThatWereTraced) {
 
 TEST(Bench, SharesAreOfOneWholeAndCountsAreMeans) {
     const auto scene = build(room());
-    const CameraDescription camera = camera_at({0, 1, 3}, {0, 0.7f, 0}, 0.8);
-    RenderSettings s;
-    s.width = s.height = 32;
+    const RenderSettings s = settings(Technique::bdpt, 32, 16);
     BenchOptions o;
     o.threads = 2;
     o.rounds = 3;
     o.seconds = 0.01;
     o.watch_seconds = 0.2;
-    const BenchResult r = run_bench(scene, camera, s, o);
+    const BenchResult r = run_bench(scene, eye(), s, o);
     EXPECT_NEAR(std::accumulate(r.shares.begin(), r.shares.end(), 0.0), 1, 1e-12);
     EXPECT_GT(r.shares[size_t(Work::rays)], 0);
     EXPECT_GT(r.shares[size_t(Work::shading)], 0);
