@@ -52,7 +52,9 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     c.strategy = k;
     c.value = w.throughput * hit->radiance;
     // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
-    mis::EmitterHitPdfs pdfs{hit->pdfs.origin, hit->pdfs.leave, hit->pdfs.next_event, true};
+    // On a path of two edges light tracing is all that the sum of emission's density stands for.
+    mis::EmitterHitPdfs pdfs{hit->pdfs.origin * e.share_of(k.edges()), hit->pdfs.leave,
+                             hit->pdfs.next_event, true};
     e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
         pdfs.next_event_feasible = e.weighs({k.s - 1, 1}, i);
@@ -77,7 +79,9 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
     c.value = v.throughput * f.f * n->value * static_cast<float>(cos_v);
 
     const double g_light = n->cos_theta / double(n->distance_squared);  // 1 at infinity
-    const mis::Side side{n->pdfs.leave * cos_v / n->distance_squared, f.pdf_rev_w};
+    // As in hit_light(): towards the camera a path of two edges has light tracing alone.
+    const mis::Side side{
+        n->pdfs.leave * cos_v / n->distance_squared * e.share_of(c.strategy.edges()), f.pdf_rev_w};
     mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light};
     e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
@@ -152,7 +156,7 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, 
     e.at(Work::weights);
     fill_weights(e, c, [&](const auto& h, int i) {
         return mis::light_tracing(h, l.mis[i], towards_light(e, c.strategy, i, side),
-                                  double(e.light_subpaths));
+                                  double(e.light_subpaths) * e.share_of(c.strategy.edges()));
     });
     if (!arrives(e, c, rays, [&] { return edge_visibility(*e.scene, l, lens); })) splat.reset();
     return splat;

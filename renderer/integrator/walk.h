@@ -47,6 +47,12 @@ struct Estimator {
     SamplerKind sampler = SamplerKind::sobol;
     // Per pass: n of eq. (22). With connections at least one for each pixel of the crop.
     std::uint64_t light_subpaths = 1;
+    // What counts of them where light tracing competes with next event for direct light, paths of
+    // two edges: n there is light_subpaths times this. A camera sample's share of a pixel is
+    // stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
+    // Slusallek and Krivanek 2019, "Variance-aware multiple importance sampling"). See
+    // direct_share() in render/settings.h.
+    double direct_share = 1;
 
     // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy
     // keeps its own expectation, whatever the survival probability.
@@ -56,6 +62,9 @@ struct Estimator {
     void at(Work work) const {
         if (watch) watch->store(work, std::memory_order_relaxed);
     }
+
+    // n of eq. (22) over light_subpaths, for paths of so many edges.
+    double share_of(int edges) const { return edges == 2 ? direct_share : 1; }
 
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
     // In the weights of an exponent.

@@ -88,6 +88,11 @@ int roulette_start(const Families& families) {
     return families.connection ? 1 : 4;
 }
 
+double direct_share(const Scene& scene, const Families& f) {
+    if (!f.next_event || !f.light_tracing) return 1;
+    return std::max(0.1, 1 - scene.same_lamp);
+}
+
 Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
                          const RenderSettings& s) {
     if (s.width < 1 || s.height < 1 || s.width > 65536 || s.height > 65536)
@@ -123,6 +128,7 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     e.sampler = s.sampler;
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     e.light_subpaths = planned ? light_subpaths(*s.plan, pixels) : pixels;
+    e.direct_share = direct_share(scene, e.families);
     return e;
 }
 

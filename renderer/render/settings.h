@@ -51,6 +51,13 @@ Families families_of(Technique t);
 // The bounce from which roulette may end a walk.
 int roulette_start(const Families& families);
 
+// Estimator::direct_share. Next event that always asks the same lamp knows its samples' values
+// beforehand but for shadows, and stratification does the rest; where it asks one of many, each
+// lamp's light comes by chance as it does in light tracing. For a place that one lamp lights alone,
+// picked with probability q, the second moment of next event is 1 / (1 - q) times its variance; q
+// is taken at its mean, by power. Never below a tenth: shadows and highlights are not known.
+double direct_share(const Scene& scene, const Families& families);
+
 // Checks the settings against each other (std::invalid_argument with one line) and binds them to a
 // scene and a camera. Light subpaths per pass are as many as the crop has pixels, but for a plan;
 // `auto` without a plan is bdpt with all families.

@@ -19,7 +19,7 @@ std::function<void(double)> part_of(const std::function<void(double)>& tick, dou
 
 PathAudit draw(const Estimator& e, const AuditOptions& o, int unit, std::uint64_t& passes,
                const std::function<void(double)>& tick) {
-    const PathSetting setting{e.families, double(e.light_subpaths), e.max_bounces};
+    const PathSetting setting = path_setting(e);
     PathAudit all(e, unit, o.float_recursion);
     const auto run = [&](const PassRange& range) {
         std::vector<PathAudit> sums(worker_count(o.threads), PathAudit(e, unit, o.float_recursion));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "integrator/walk.h"
+
 namespace midway {
 namespace {
 
@@ -14,6 +16,14 @@ long double log_of(double x) {
 }
 
 }  // namespace
+
+PathSetting path_setting(const Estimator& e) {
+    return {e.families, double(e.light_subpaths), e.max_bounces, e.direct_share};
+}
+
+double light_tracing_count(const PathSetting& s, int edges) {
+    return s.light_subpaths * (edges == 2 ? s.direct_share : 1);
+}
 
 bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     const int last = p.edges();
@@ -35,7 +45,7 @@ bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& settin
 long double log_density(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     if (!is_feasible(p, k, setting)) return minus_infinity;
     const int last = p.edges();
-    long double sum = k.s == 1 ? log_of(setting.light_subpaths) : 0.0L;
+    long double sum = k.s == 1 ? log_of(light_tracing_count(setting, last)) : 0.0L;
     for (int i = 1; i < k.s; ++i)
         sum += log_of(p.vertices[i].camera_w) + log_of(p.vertices[i].camera_g);
     for (int i = k.s; i < last; ++i)

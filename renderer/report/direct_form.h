@@ -15,6 +15,8 @@
 
 namespace midway {
 
+struct Estimator;
+
 struct VertexPdfs {
     double camera_w = 1,
            camera_g = 1;              // of this vertex, made from its neighbour towards the camera
@@ -39,7 +41,12 @@ struct PathSetting {
     Families families;
     double light_subpaths = 1;
     int max_bounces = 1000;
+    double direct_share = 1;  // as in Estimator
 };
+PathSetting path_setting(const Estimator& estimator);
+
+// n of eq. (22) for light tracing.
+double light_tracing_count(const PathSetting& setting, int edges);
 
 // Can this strategy make the path at all? (2,0) and (1,1) are no strategies of weighted paths.
 bool is_feasible(const PathPdfs& path, const Strategy& strategy, const PathSetting& setting);

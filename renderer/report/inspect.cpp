@@ -292,8 +292,7 @@ InspectedSample inspect_sample(const Inspectable& what, int x, int y, std::uint6
     const ScopedFlushToZero flush;
     const Scene& scene = *what.scene;
     const Estimator e = make_estimator(scene, what.camera, what.settings);
-    const Inspection in{e, scene, make_recording(what.settings),
-                        PathSetting{e.families, double(e.light_subpaths), e.max_bounces},
+    const Inspection in{e, scene, make_recording(what.settings), path_setting(e),
                         scene.geometry->normalisation.scale};
     InspectedSample s;
     s.x = x;

@@ -48,19 +48,20 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting
              const Strategy& k, const std::vector<mis::State>& from_camera,
              const std::vector<mis::State>& from_light) {
     const int s = k.s;
+    const double count = light_tracing_count(setting, k.edges());
+    const double share = count / setting.light_subpaths;
     const mis::State camera = from_camera[s - 1];
     if (k.t == 0)
         return mis::emitter_hit(h, camera,
-                                {c.emission, c.vertices[s - 2].light_w, c.next_event,
+                                {c.emission * share, c.vertices[s - 2].light_w, c.next_event,
                                  s > 2 && has(setting, {s - 1, 1})});
     const double towards_camera = l.vertices[s - 1].light_w * c.vertices[s - 1].light_g;
     const double towards_light = c.vertices[s].camera_w * c.vertices[s].camera_g;
     if (s == 1)
         return mis::light_tracing(
             h, from_light[k.t - 1],
-            {towards_light, l.vertices[2].camera_w, has(setting, {2, k.t - 1})},
-            setting.light_subpaths);
-    const mis::Side camera_side{towards_camera, c.vertices[s - 2].light_w,
+            {towards_light, l.vertices[2].camera_w, has(setting, {2, k.t - 1})}, count);
+    const mis::Side camera_side{towards_camera * share, c.vertices[s - 2].light_w,
                                 has(setting, {s - 1, k.t + 1})};
     if (k.t == 1)
         return mis::next_event(

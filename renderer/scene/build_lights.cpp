@@ -186,6 +186,20 @@ void make_light_tables(Scene& s, const Scene* previous) {
     make_light_tree(s, std::move(next_event), previous);
 }
 
+// An object that shines is one lamp, of however many triangles.
+double same_lamp_probability(const Scene& s) {
+    double sum = 0, lamp = 0;
+    for (size_t i = 0; i < s.lights.size(); ++i) {
+        lamp += s.lights[i].power / s.total_power;
+        const bool goes_on = s.lights[i].kind == LightKind::area && i + 1 < s.lights.size() &&
+                             s.lights[i + 1].object == s.lights[i].object;
+        if (goes_on) continue;
+        sum += sqr(lamp);
+        lamp = 0;
+    }
+    return sum;
+}
+
 size_t count_lights(const Scene& s, const SceneDescription& d) {
     size_t count = d.lights.size() + 1;
     for (const Object& o : s.geometry->objects)
@@ -204,6 +218,7 @@ void build_lights(Scene& s, const SceneDescription& d, const Scene* previous) {
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
     make_light_tables(s, previous);
+    if (s.total_power > 0) s.same_lamp = same_lamp_probability(s);
 }
 
 }  // namespace midway

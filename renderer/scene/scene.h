@@ -37,6 +37,7 @@ struct Scene {
     std::vector<EmissionMeans> emission_means;  // of each object, null where they are one
     float radius = 1;        // of the bounding disc that infinite lights emit from
     double total_power = 0;  // of all lights, mean of RGB, in scene units
+    double same_lamp = 0;    // probability that two lights picked by power belong to one lamp
     bool has_transparency = false;
 };
 

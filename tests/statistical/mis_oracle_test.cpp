@@ -11,9 +11,9 @@
 
 #include "math/float_mode.h"
 #include "render/settings.h"
-#include "support/agreement_scenes.h"
 #include "report/drawn_path.h"
 #include "report/whole_path_recursion.h"
+#include "support/agreement_scenes.h"
 #include "support/tier.h"
 
 namespace midway::test {
@@ -37,7 +37,7 @@ Subject prepare(AgreementScene scene, const Families& families) {
     s.max_bounces = 6;
     Subject r{std::move(scene), {}, {}};
     r.estimator = make_estimator(*r.scene.scene, r.scene.camera, s);
-    r.setting = {r.estimator.families, double(r.estimator.light_subpaths), s.max_bounces};
+    r.setting = path_setting(r.estimator);
     return r;
 }
 
