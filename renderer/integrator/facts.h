@@ -24,7 +24,7 @@ inline constexpr Facts no_facts{};
 inline constexpr Facts power2_facts{.one_power2 = true};
 inline constexpr Facts path_tracer_facts{.one_power2 = true, .path_tracer = true};
 
-// Those that hold and that there is code for.
+// Of the instances the one that knows most of what holds.
 Facts facts_of(const Estimator& estimator);
 
 // Calls use.operator()<F>() with F = facts, as facts_of() gives them.
