@@ -63,6 +63,7 @@ PixelFilter make_filter(FilterKind kind) {
 }
 
 vec2 sample_filter(const PixelFilter& f, const vec2& u) {
+    if (f.profile.size() == 1) return f.radius * (2.0f * u - 1.0f);  // as below, at once
     const auto axis = [&](float v) {
         const DiscreteSample s = sample_discrete(f.profile, v);
         return f.radius * (2 * (s.index + s.remapped) / f.profile.size() - 1);

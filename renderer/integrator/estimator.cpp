@@ -5,17 +5,24 @@
 namespace midway {
 namespace {
 
+// Fills the weights; `weigh` is called with the heuristic of each exponent.
+template <Facts F, class Weigh>
+void fill_weights(const Estimator& e, Contribution& c, const Weigh& weigh) {
+    for_each_exponent<F>(e, [&](const auto& h, int i) { c.weights[i] = weigh(h, i); });
+}
+
+template <Facts F>
 bool no_weight(const Estimator& e, const Contribution& c) {
-    for (int i = 0; i < e.exponent_count; ++i)
+    for (int i = 0; i < exponent_count<F>(e); ++i)
         if (c.weights[i] > 0) return false;
     return true;
 }
 
 // Whether anything of a contribution arrives over its edge; `seen` traces the edge's ray, which is
 // spared where the answer is known.
-template <class Seen>
+template <Facts F, class Seen>
 bool arrives(const Estimator& e, Contribution& c, RayCounts& rays, const Seen& seen) {
-    if (is_black(c.value) || no_weight(e, c)) return false;
+    if (is_black(c.value) || no_weight<F>(e, c)) return false;
     rays.count_shadow(c.strategy);
     e.at(Work::rays);
     const float part = seen();
@@ -37,6 +44,7 @@ mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis
 
 }  // namespace
 
+template <Facts F>
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached reached) {
     e.at(Work::shading);
     std::optional<Contribution> found;
@@ -56,13 +64,16 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     mis::EmitterHitPdfs pdfs{hit->pdfs.origin * e.share_of(k.edges()), hit->pdfs.leave,
                              hit->pdfs.next_event, true};
     e.at(Work::weights);
-    fill_weights(e, c, [&](const auto& h, int i) {
+    fill_weights<F>(e, c, [&](const auto& h, int i) {
         pdfs.next_event_feasible = e.weighs({k.s - 1, 1}, i);
-        return k.s == 2 ? 1.0 : mis::emitter_hit(h, w.vertex.mis[i], pdfs);
+        if (k.s == 2) return 1.0;
+        if constexpr (F.path_tracer) return mis::path_tracer::emitter_hit(h, w.vertex.mis[i], pdfs);
+        return mis::emitter_hit(h, w.vertex.mis[i], pdfs);
     });
     return found;
 }
 
+template <Facts F>
 std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& v, const vec4& u,
                                              RayCounts& rays) {
     e.at(Work::shading);
@@ -84,8 +95,9 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
         n->pdfs.leave * cos_v / n->distance_squared * e.share_of(c.strategy.edges()), f.pdf_rev_w};
     mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light};
     e.at(Work::weights);
-    fill_weights(e, c, [&](const auto& h, int i) {
+    fill_weights<F>(e, c, [&](const auto& h, int i) {
         pdfs.hit_feasible = !is_delta(kind) && e.weighed[i].emitter_hit;
+        if constexpr (F.path_tracer) return mis::path_tracer::next_event(h, pdfs);
         return mis::next_event(h, v.mis[i], towards_camera(e, c.strategy, i, side), pdfs);
     });
     const auto seen = [&] {
@@ -93,10 +105,11 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
         if (is_infinite(kind)) return visibility_to_infinity(*e.scene, from, n->direction);
         return visibility(*e.scene, from, offset_end(n->target, n->normal, n->error, v.position));
     };
-    if (!arrives(e, c, rays, seen)) found.reset();
+    if (!arrives<F>(e, c, rays, seen)) found.reset();
     return found;
 }
 
+template <Facts F>
 std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, const PathVertex& l,
                                     RayCounts& rays) {
     e.at(Work::shading);
@@ -118,14 +131,15 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
     const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w};
     const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w};
     e.at(Work::weights);
-    fill_weights(e, c, [&](const auto& h, int i) {
+    fill_weights<F>(e, c, [&](const auto& h, int i) {
         return mis::connection(h, v.mis[i], towards_camera(e, c.strategy, i, camera), l.mis[i],
                                towards_light(e, c.strategy, i, light));
     });
-    if (!arrives(e, c, rays, [&] { return edge_visibility(*e.scene, v, l); })) found.reset();
+    if (!arrives<F>(e, c, rays, [&] { return edge_visibility(*e.scene, v, l); })) found.reset();
     return found;
 }
 
+template <Facts F>
 std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, const vec4& u,
                                        RayCounts& rays) {
     e.at(Work::shading);
@@ -154,12 +168,24 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, 
         l.throughput * f.f * static_cast<float>(pdf_a * pixel.factor / double(e.light_subpaths));
     const mis::Side side{pdf_a, f.pdf_rev_w};
     e.at(Work::weights);
-    fill_weights(e, c, [&](const auto& h, int i) {
+    fill_weights<F>(e, c, [&](const auto& h, int i) {
         return mis::light_tracing(h, l.mis[i], towards_light(e, c.strategy, i, side),
                                   double(e.light_subpaths) * e.share_of(c.strategy.edges()));
     });
-    if (!arrives(e, c, rays, [&] { return edge_visibility(*e.scene, l, lens); })) splat.reset();
+    if (!arrives<F>(e, c, rays, [&] { return edge_visibility(*e.scene, l, lens); })) splat.reset();
     return splat;
 }
+
+// The instances; a path tracer connects nothing to light subpaths.
+template decltype(hit_light<no_facts>) hit_light<no_facts>;
+template decltype(hit_light<power2_facts>) hit_light<power2_facts>;
+template decltype(hit_light<path_tracer_facts>) hit_light<path_tracer_facts>;
+template decltype(connect_to_light<no_facts>) connect_to_light<no_facts>;
+template decltype(connect_to_light<power2_facts>) connect_to_light<power2_facts>;
+template decltype(connect_to_light<path_tracer_facts>) connect_to_light<path_tracer_facts>;
+template decltype(connect<no_facts>) connect<no_facts>;
+template decltype(connect<power2_facts>) connect<power2_facts>;
+template decltype(connect_to_camera<no_facts>) connect_to_camera<no_facts>;
+template decltype(connect_to_camera<power2_facts>) connect_to_camera<power2_facts>;
 
 }  // namespace midway

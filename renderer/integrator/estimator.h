@@ -10,6 +10,7 @@
 //   void contribution(const Contribution&)   added to the sample's own pixel
 //   void splat(int x, int y, const Contribution&)
 //   bool wants(const Strategy&)              false: the strategy's rays need not be traced
+// F holds for the estimator (facts.h): it changes the code and no result.
 #pragma once
 
 #include <algorithm>
@@ -43,19 +44,13 @@ struct RayCounts {
 // sample.
 using LightSubpath = std::vector<PathVertex>;
 
-// Fills the weights; `weigh` is called with the heuristic of each exponent.
-template <class Weigh>
-void fill_weights(const Estimator& e, Contribution& c, const Weigh& weigh) {
-    for (int i = 0; i < e.exponent_count; ++i)
-        c.weights[i] =
-            mis::with_heuristic(e.exponents[i], [&](const auto& h) { return weigh(h, i); });
-}
-
 // Next event from the camera vertex (t = 1); empty where nothing arrives.
+template <Facts F = no_facts>
 std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& camera,
                                              const vec4& u, RayCounts& rays);
 
 // Connection of two surface vertices (s, t >= 2).
+template <Facts F = no_facts>
 std::optional<Contribution> connect(const Estimator& e, const PathVertex& camera,
                                     const PathVertex& light, RayCounts& rays);
 
@@ -64,14 +59,16 @@ struct Splat {
     int x = 0, y = 0;
     Contribution contribution;
 };
+template <Facts F = no_facts>
 std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& light, const vec4& u,
                                        RayCounts& rays);
 
 // The camera walk reached a light, or the sky (t = 0).
+template <Facts F = no_facts>
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& walk, Reached reached);
 
 // Walks the light subpath; every vertex is splatted, connectible vertices are kept.
-template <class Record>
+template <Facts F = no_facts, class Record>
 void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_t pass,
                          LightSubpath& vertices, Record& record, RayCounts& rays) {
     vertices.clear();
@@ -79,11 +76,11 @@ void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_
     std::optional<Walk> walk = start_light_walk(e, subpath, pass);
     while (walk && walk->index < e.max_bounces) {
         ++rays.closest;
-        if (extend(e, *walk) != Reached::surface) return;
+        if (extend<F>(e, *walk) != Reached::surface) return;
         const PathVertex& v = walk->vertex;
         if (v.connectible) {
             if (e.families.light_tracing && record.wants({1, v.index + 1}))
-                if (const auto s = connect_to_camera(e, v, walk->numbers.connect, rays)) {
+                if (const auto s = connect_to_camera<F>(e, v, walk->numbers.connect, rays)) {
                     e.at(Work::film);
                     record.splat(s->x, s->y, s->contribution);
                     e.at(Work::shading);
@@ -113,45 +110,50 @@ void record_own(const Estimator& e, const std::optional<Contribution>& c, Record
 }
 
 // Walks the camera subpath and forms every strategy that ends on it.
-template <class Record>
+template <Facts F = no_facts, class Record>
 void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
                           const LightSubpath& light, Record& record, RayCounts& rays) {
     ++rays.camera_paths;
     Walk walk = start_camera_walk(e, x, y, pass);
     for (;;) {
         ++rays.closest;
-        const Reached reached = extend(e, walk);
+        const Reached reached = extend<F>(e, walk);
         const Strategy hit{walk.index + 1, 0};
-        if (record.wants(hit)) record_own(e, hit_light(e, walk, reached), record);
+        if (record.wants(hit)) record_own(e, hit_light<F>(e, walk, reached), record);
         if (reached != Reached::surface || walk.index > e.max_bounces) return;
 
         const PathVertex& v = walk.vertex;
         if (v.connectible) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
-                record_own(e, connect_to_light(e, v, walk.numbers.connect, rays), record);
-            for (const PathVertex& l : light) {
-                if (v.index + l.index > e.max_bounces) break;
-                if (record.wants({v.index + 1, l.index + 1}))
-                    record_own(e, connect(e, v, l, rays), record);
-            }
+                record_own(e, connect_to_light<F>(e, v, walk.numbers.connect, rays), record);
+            if constexpr (!F.path_tracer)
+                for (const PathVertex& l : light) {
+                    if (v.index + l.index > e.max_bounces) break;
+                    if (record.wants({v.index + 1, l.index + 1}))
+                        record_own(e, connect<F>(e, v, l, rays), record);
+                }
         }
         if (has_found_all(e, walk.index) || !scatter(walk)) return;
     }
 }
 
 // The sample of one pixel in one pass, with the light subpaths that belong to it.
-template <class Record>
+template <Facts F = no_facts, class Record>
 void estimate(const Estimator& e, int x, int y, std::uint64_t pass, LightSubpath& scratch,
               Record& record, RayCounts& rays) {
     scratch.clear();
-    if (!e.families.needs_light_subpaths())
-        return trace_camera_subpath(e, x, y, pass, scratch, record, rays);
-    const auto area = static_cast<std::uint64_t>(e.crop.area());
-    const std::uint64_t first = paired_subpath(e, x, y, pass);
-    if (first < e.light_subpaths) trace_light_subpath(e, first, pass, scratch, record, rays);
-    trace_camera_subpath(e, x, y, pass, scratch, record, rays);
-    for (std::uint64_t more = first + area; more < e.light_subpaths; more += area)
-        trace_light_subpath(e, more, pass, scratch, record, rays);
+    if constexpr (F.path_tracer) {
+        trace_camera_subpath<F>(e, x, y, pass, scratch, record, rays);
+    } else {
+        if (!e.families.needs_light_subpaths())
+            return trace_camera_subpath<F>(e, x, y, pass, scratch, record, rays);
+        const auto area = static_cast<std::uint64_t>(e.crop.area());
+        const std::uint64_t first = paired_subpath(e, x, y, pass);
+        if (first < e.light_subpaths) trace_light_subpath<F>(e, first, pass, scratch, record, rays);
+        trace_camera_subpath<F>(e, x, y, pass, scratch, record, rays);
+        for (std::uint64_t more = first + area; more < e.light_subpaths; more += area)
+            trace_light_subpath<F>(e, more, pass, scratch, record, rays);
+    }
 }
 
 }  // namespace midway

@@ -234,4 +234,28 @@ double light_tracing(const H& h, const State& light, Side light_side, double n) 
     return weight_of(h, h(0), side_weight(h, light, light_side));
 }
 
+// Without light subpaths vc is zero, and vcm counts as next event's strategy alone: what eq. (20)
+// and the cases 2 and 3 leave of the functions above, with the same bits.
+namespace path_tracer {
+
+template <class H>
+State advance(const H& h, double pdf_fwd_a, bool delta) {
+    using R = typename H::Real;
+    return store<H>({delta ? h(0) : h(1 / R(pdf_fwd_a)), h(0)});
+}
+
+template <class H>
+double emitter_hit(const H& h, const State& camera, const EmitterHitPdfs& k) {
+    using R = typename H::Real;
+    const auto vcm = load<H>(camera).vcm;
+    return weight_of(h, h(R(k.next_event)) * feasible(h, k.next_event_feasible) * vcm, h(0));
+}
+
+template <class H>
+double next_event(const H& h, const NextEventPdfs& k) {
+    using R = typename H::Real;
+    return weight_of(h, h(0), feasible(h, k.hit_feasible) * h(R(k.hit_pdf) / R(k.next_event)));
+}
+
+}  // namespace path_tracer
 }  // namespace midway::mis

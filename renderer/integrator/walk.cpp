@@ -27,17 +27,13 @@ Strategy previous_strategy(const Walk& w) {
     return w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{2, i};
 }
 
-template <class Update>
-void for_each_exponent(const Estimator& e, const Update& update) {
-    for (int i = 0; i < e.exponent_count; ++i)
-        mis::with_heuristic(e.exponents[i], [&](const auto& h) { update(h, i); });
-}
-
 // Sums at vertex 1: eq. (22)-(25), (34), (37), (38).
+template <Facts F>
 void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
+    if constexpr (F.path_tracer) return;  // what vertex 1 stands for needs a light subpath
     if (w.transport == Transport::radiance) {
         const double pdf_a = w.pdf_fwd_w * cos_in / distance2;
-        for_each_exponent(e, [&](const auto& h, int i) {
+        for_each_exponent<F>(e, [&](const auto& h, int i) {
             w.vertex.mis[i] = mis::start_camera(h, double(e.light_subpaths), pdf_a);
         });
         return;
@@ -48,18 +44,23 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     l.g_light = w.infinite_light ? 1 : w.cos_previous / distance2;
     l.next_event_ratio = next_event_ratio(*e.scene, w.light, w.vertex.position);
     w.light_pdfs.next_event = static_cast<float>(w.light_pdfs.origin * l.next_event_ratio);
-    for_each_exponent(e, [&](const auto& h, int i) {
+    for_each_exponent<F>(e, [&](const auto& h, int i) {
         l.hittable = w.hittable_light && e.weighed[i].emitter_hit;
         w.vertex.mis[i] = mis::start_light(h, l);
     });
 }
 
+template <Facts F>
 void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
     mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, true};
     const Strategy previous = previous_strategy(w);
-    for_each_exponent(e, [&](const auto& h, int i) {
-        step.connects = e.weighs(previous, i);
-        w.vertex.mis[i] = mis::advance(h, w.vertex.mis[i], step);
+    for_each_exponent<F>(e, [&](const auto& h, int i) {
+        if constexpr (F.path_tracer) {
+            w.vertex.mis[i] = mis::path_tracer::advance(h, step.pdf_fwd_a, step.delta);
+        } else {
+            step.connects = e.weighs(previous, i);
+            w.vertex.mis[i] = mis::advance(h, w.vertex.mis[i], step);
+        }
     });
 }
 
@@ -130,18 +131,21 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
     return walk;
 }
 
+template <Facts F>
 Reached extend(const Estimator& e, Walk& w) {
     e.at(Work::rays);
-    const TriangleHit hit = e.scene->accel->closest(w.ray, {e.scene}, coin(w));
+    // Where all is opaque nobody looks at the coin.
+    const std::uint64_t toss = e.scene->has_transparency ? coin(w) : 0;
+    const TriangleHit hit = e.scene->accel->closest(w.ray, {e.scene}, toss);
     e.at(Work::shading);
     build_at(w.point, [&] { return surface_at(*e.scene, hit); });
     ++w.index;
     if (!w.point) {
         e.at(Work::weights);
         if (w.index == 1)
-            start_sums(e, w, 1, 1);
+            start_sums<F>(e, w, 1, 1);
         else
-            advance_sums(e, w, 1, w.cos_previous);
+            advance_sums<F>(e, w, 1, w.cos_previous);
         return Reached::sky;
     }
     const SurfacePoint& p = *w.point;
@@ -166,15 +170,19 @@ Reached extend(const Estimator& e, Walk& w) {
     if (!(cos_in > 0)) return Reached::nothing;
     e.at(Work::weights);
     if (w.index == 1)
-        start_sums(e, w, cos_in, distance2);
+        start_sums<F>(e, w, cos_in, distance2);
     else
-        advance_sums(e, w, cos_in / distance2, w.cos_previous / distance2);
+        advance_sums<F>(e, w, cos_in / distance2, w.cos_previous / distance2);
     e.at(Work::sampling);
     const auto u = sample_4d_pair(w.key, 2 + 2 * static_cast<std::uint32_t>(w.index));
     w.numbers = {u[0], u[1]};
     e.at(Work::shading);
     return Reached::surface;
 }
+
+template decltype(extend<no_facts>) extend<no_facts>;
+template decltype(extend<power2_facts>) extend<power2_facts>;
+template decltype(extend<path_tracer_facts>) extend<path_tracer_facts>;
 
 bool scatter(Walk& w) {
     const PathVertex& v = w.vertex;

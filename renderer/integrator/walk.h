@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "image/pixel_filter.h"
+#include "integrator/facts.h"
 #include "integrator/mis.h"
 #include "math/sampler.h"
 #include "scene/scene.h"
@@ -72,6 +73,22 @@ struct Estimator {
         return weighed[exponent].has(family_of(k));
     }
 };
+
+template <Facts F>
+int exponent_count(const Estimator& e) {
+    return F.one_power2 ? 1 : e.exponent_count;
+}
+
+// Calls `use` with the heuristic of each exponent, and its number.
+template <Facts F, class Use>
+void for_each_exponent(const Estimator& e, const Use& use) {
+    if constexpr (F.one_power2) {
+        use(mis::Power2<>{}, 0);
+    } else {
+        for (int i = 0; i < e.exponent_count; ++i)
+            mis::with_heuristic(e.exponents[i], [&](const auto& h) { use(h, i); });
+    }
+}
 
 // A surface vertex of a subpath. Endpoints (lens, light) are never stored.
 struct PathVertex {
@@ -144,6 +161,7 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath, 
 // Traces to the next vertex. Where the ray leaves the scene, walk.vertex.mis holds the sums for a
 // vertex at infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
 enum class Reached : std::uint8_t { surface, sky, nothing };
+template <Facts F = no_facts>
 Reached extend(const Estimator& e, Walk& walk);
 
 // Chooses the next direction. False where the walk ends.

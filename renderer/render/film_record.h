@@ -70,7 +70,8 @@ struct WorkerSums {
 template <bool observed>
 class FilmRecord {
   public:
-    FilmRecord(const FilmTargets& targets, WorkerSums& sums) : targets_(targets), sums_(sums) {}
+    FilmRecord(const FilmTargets& targets, WorkerSums& sums)
+        : targets_(targets), sums_(sums), exponents_(targets.films->size()) {}
     FilmRecord(const FilmRecord&) = delete;
     FilmRecord& operator=(const FilmRecord&) = delete;
     ~FilmRecord() {
@@ -83,7 +84,7 @@ class FilmRecord {
         x_ = x;
         y_ = y;
         pass_ = pass;
-        for (size_t i = 0; i < targets_.films->size(); ++i) pixel_[i] = {};
+        for (size_t i = 0; i < exponents_; ++i) pixel_[i] = {};
         if constexpr (observed)
             if (targets_.cells) buffer_.move_to(*targets_.cells, x, y, sums_.cells_lost);
     }
@@ -92,7 +93,7 @@ class FilmRecord {
 
     void contribution(const Contribution& c) {
         if (!usable(c)) return;
-        for (size_t i = 0; i < targets_.films->size(); ++i) {
+        for (size_t i = 0; i < exponents_; ++i) {
             const vec3 w = weighted(c, i);
             const FixedRgb v = fixed(w);
             for (int k = 0; k < 3; ++k)
@@ -105,7 +106,7 @@ class FilmRecord {
 
     void splat(int x, int y, const Contribution& c) {
         if (!usable(c)) return;
-        for (size_t i = 0; i < targets_.films->size(); ++i) {
+        for (size_t i = 0; i < exponents_; ++i) {
             const vec3 w = weighted(c, i);
             const FixedRgb v = fixed(w);
             wait((*targets_.films)[i], x, y, v);
@@ -116,8 +117,7 @@ class FilmRecord {
 
     // Adds the sample's sum to its pixel.
     void end() {
-        for (size_t i = 0; i < targets_.films->size(); ++i)
-            wait((*targets_.films)[i], x_, y_, pixel_[i]);
+        for (size_t i = 0; i < exponents_; ++i) wait((*targets_.films)[i], x_, y_, pixel_[i]);
     }
 
   private:
@@ -156,7 +156,7 @@ class FilmRecord {
     int half() const { return static_cast<int>(pass_ & 1); }
 
     bool usable(const Contribution& c) {
-        const bool usable = is_usable(c, targets_.films->size());
+        const bool usable = is_usable(c, exponents_);
         if (!usable) sums_.nonfinite.add(x_, y_, pass_);
         return usable;
     }
@@ -220,6 +220,7 @@ class FilmRecord {
 
     const FilmTargets& targets_;
     WorkerSums& sums_;
+    const size_t exponents_;
     int x_ = 0, y_ = 0;
     std::uint64_t pass_ = 0;
     std::array<FixedRgb, max_exponents> pixel_{};

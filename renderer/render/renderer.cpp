@@ -92,7 +92,7 @@ struct ProgressiveRenderer::Batch {
     PassGate gate;
 };
 
-template <bool observed>
+template <Facts F, bool observed>
 bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
     const ScopedFlushToZero flush;
     const Tiles& tiles = batch.tiles;
@@ -104,7 +104,7 @@ bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
             for (int x = r.x0; x < r.x1; ++x) {
                 if (batch.control && !batch.control->go_on()) return false;
                 record.begin(x, y, pass);
-                estimate(estimator_, x, y, pass, scratch, record, sums.rays);
+                estimate<F>(estimator_, x, y, pass, scratch, record, sums.rays);
                 estimator_.at(Work::film);
                 record.end();
                 estimator_.at(Work::other);
@@ -134,6 +134,12 @@ bool ProgressiveRenderer::render_passes(std::uint64_t count,
     Batch batch{.tiles = make_tiles(estimator_.crop, count, threads_), .control = control};
     batch.items = count * batch.tiles.count();
     const bool observed = targets_.layers || targets_.statistics || targets_.cells;
+    const Facts facts = facts_of(estimator_);
+    const auto run = [&](WorkerSums& s) {
+        return with_facts(facts, [&]<Facts F> {
+            return observed ? work<F, true>(batch, s) : work<F, false>(batch, s);
+        });
+    };
     std::vector<WorkerSums> sums(threads_);
     std::mutex mutex;
     std::condition_variable finished;
@@ -147,7 +153,7 @@ bool ProgressiveRenderer::render_passes(std::uint64_t count,
             if (targets_.statistics) s.rays.by_strategy = &s.strategy_rays;
             workers.emplace_back([&] {
                 if (background_) lower_priority();
-                const bool done = observed ? work<true>(batch, s) : work<false>(batch, s);
+                const bool done = run(s);
                 const std::lock_guard lock(mutex);
                 whole &= done;
                 cpu_seconds_ += thread_cpu_seconds();

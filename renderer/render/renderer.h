@@ -79,7 +79,7 @@ class ProgressiveRenderer {
 
   private:
     struct Batch;
-    template <bool observed>
+    template <Facts F, bool observed>
     bool work(Batch& batch, WorkerSums& sums) const;
     void merge(const WorkerSums& sums);
     void begin_statistics(bool on, size_t strategies);

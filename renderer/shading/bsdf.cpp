@@ -91,9 +91,9 @@ PairSums sum_diffuse(const Bsdf& b, const vec3& o, const vec3& i, bool reflects)
             cosine_hemisphere_pdf_w(mu_o)};
 }
 
-PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world, bool front,
-                   bool reflects) {
-    if (b.only_diffuse) return sum_diffuse(b, o_world, i_world, reflects);
+// Not inline: the short way beside it would have to save as many registers.
+[[gnu::noinline]] PairSums sum_lobes(const Bsdf& b, const vec3& o_world, const vec3& i_world,
+                                     bool front, bool reflects) {
     const SideFrame side = side_frame(b, front);
     const bool light_front = front == reflects;
     const vec3 o = to_local(b, o_world, front);
@@ -170,7 +170,9 @@ BsdfEval eval_bsdf(const Bsdf& b, const vec3& from, const vec3& to, Transport tr
     const vec3& i = radiance ? to : from;
     const float go = glm::dot(o, b.ng), gi = glm::dot(i, b.ng);
     if (go == 0 || gi == 0) return {};
-    const lobes::PairSums s = lobes::sum_lobes(b, o, i, go > 0, go * gi > 0);
+    const bool reflects = go * gi > 0;
+    const lobes::PairSums s = b.only_diffuse ? lobes::sum_diffuse(b, o, i, reflects)
+                                             : lobes::sum_lobes(b, o, i, go > 0, reflects);
     const vec3 f = s.value / std::abs(gi);
     return radiance ? BsdfEval{f, s.pdf_light, s.pdf_camera}
                     : BsdfEval{f, s.pdf_camera, s.pdf_light};

@@ -168,15 +168,11 @@ bool weigh(const Bsdf& b, const vec3& from, Transport transport, BsdfSample& s) 
     return true;
 }
 
-// sample_bsdf(); false where it draws nothing.
-bool draw(const Bsdf& b, const vec3& from, const vec3& u, Transport transport, BsdfSample& s) {
-    const float gf = glm::dot(from, b.ng);
-    if (gf == 0) return false;
+// sample_bsdf() for any lobes; false where it draws nothing. Not inline: the short way of a diffuse
+// surface would have to save as many registers.
+[[gnu::noinline]] bool draw_lobes(const Bsdf& b, const vec3& from, const vec3& u,
+                                  Transport transport, float gf, BsdfSample& s) {
     const bool front = gf > 0;
-    if (b.only_diffuse) {
-        s.to = draw_diffuse(b, u, gf);
-        return b.has_diffuse() && weigh(b, from, transport, s);
-    }
     const vec3 l = to_local(b, from, front);
     const float z = transport == Transport::radiance
                         ? std::abs(l.z)
@@ -212,7 +208,15 @@ bool draw(const Bsdf& b, const vec3& from, const vec3& u, Transport transport, B
 std::optional<BsdfSample> sample_bsdf(const Bsdf& b, const vec3& from, const vec3& u,
                                       Transport transport) {
     std::optional<BsdfSample> s(std::in_place);
-    if (!draw(b, from, u, transport, *s)) s.reset();
+    const float gf = glm::dot(from, b.ng);
+    bool drawn = false;
+    if (gf != 0 && b.only_diffuse) {
+        s->to = draw_diffuse(b, u, gf);
+        drawn = b.has_diffuse() && weigh(b, from, transport, *s);
+    } else if (gf != 0) {
+        drawn = draw_lobes(b, from, u, transport, gf, *s);
+    }
+    if (!drawn) s.reset();
     return s;
 }
 
