@@ -131,7 +131,7 @@ bool take_images(App& app, Engine& engine) {
     if (snapshot == app.snapshot && channels == app.channels) return false;
     app.snapshot = std::move(snapshot);
     // What `auto` decided belongs to what its files say.
-    if (app.snapshot && app.snapshot->plan)
+    if (app.snapshot && app.snapshot->scale == 1 && app.snapshot->plan)
         for (SubmittedJob& job : engine.jobs)
             if (job.number == app.snapshot->job) job.settings.plan = app.snapshot->plan;
     app.channels = std::move(channels);

@@ -55,7 +55,7 @@ struct Document {
 // members when a render starts. The image has settings.width x height pixels; with `fit_window`
 // they follow the view when the window (not a panel) changes its size.
 struct RenderChoices {
-    RenderSettings settings;
+    RenderSettings settings{.technique = Technique::automatic};
     double exponent = 2;       // the one that is shown, 0..8
     double free_exponent = 4;  // the last one chosen that is none of 0, 1, 2
     bool same_paths = false;   // exponents 0, 1, 2 and free_exponent from the same paths
