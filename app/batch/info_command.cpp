@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "plan_json.h"
 #include "render/coverage.h"
+#include "render/leave_outs.h"
 #include "session_options.h"
 
 namespace midway {
@@ -68,8 +69,8 @@ Json describe_scene(const PreparedScene& p) {
         j["families"].push_back(
             {{"family", need.family}, {"needed", need.needed}, {"why", need.why}});
     j["left_out"] = Json::array();
-    for (const FamilyNeed& need : family_needs(f))
-        if (!need.needed) j["left_out"].push_back({{"what", need.family}, {"why", need.why}});
+    for (const LeaveOut& line : leave_outs(*p.scene))
+        j["left_out"].push_back({{"what", line.what}, {"why", line.why}});
     j["not_covered"] = Json::array();
     for (const Technique t : {Technique::path, Technique::light, Technique::bdpt})
         for (const std::string& what : not_covered(f, families_of(t), t == Technique::light))
@@ -91,8 +92,12 @@ void print_text(const Json& j) {
     if (j.contains("sky")) fmt::print("  sky: {}\n", j["sky"].get<std::string>());
     for (const Json& e : j["edits"]) fmt::print("  edited: {}\n", e.get<std::string>());
     for (const Json& f : j["families"])
-        fmt::print("  {}: {} ({})\n", f["family"].get<std::string>(),
-                   f["needed"].get<bool>() ? "used" : "left out", f["why"].get<std::string>());
+        if (f["needed"].get<bool>())
+            fmt::print("  used: {}: {}\n", f["family"].get<std::string>(),
+                       f["why"].get<std::string>());
+    for (const Json& l : j["left_out"])
+        fmt::print("  left out: {}: {}\n", l["what"].get<std::string>(),
+                   l["why"].get<std::string>());
     for (const Json& n : j["not_covered"])
         fmt::print("  {} does not cover: {}\n", n["technique"].get<std::string>(),
                    n["what"].get<std::string>());

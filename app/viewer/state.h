@@ -45,6 +45,7 @@ struct Document {
     std::uint64_t stamp = 0;                        // file_stamp(files) then
     std::vector<std::string> warnings;
     std::vector<std::string> not_covered;  // by the technique in use, in words
+    std::vector<std::string> left_out;     // because the scene does not need it, in words
     std::string loading;                   // path under way, empty where none is
     float progress = 0;                    // of loading, 0..1
     std::string stage;                     // of loading, in words
