@@ -4,8 +4,9 @@
 // the interval that holds it in 95 % of such series (report/bench.h).
 //
 // What is turned on finds nothing, so the image is the same to the bit, and that is checked. Where
-// it is a matter of picking or of the plan of `auto`, other samples are taken: then the means are
-// compared.
+// it is a matter of picking or of the plan of `auto`, other samples are taken; flat normal maps turn
+// normals by their rounding, and where two triangles lie at one distance Embree may name the other
+// once it asks for coverage: then the means are compared.
 #pragma once
 
 #include "render/prepare.h"
