@@ -4,8 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "plan_json.h"
+#include "info_cost.h"
 #include "render/coverage.h"
+#include "render/leave_outs.h"
+#include "render_options.h"
 #include "session_options.h"
 
 namespace midway {
@@ -68,8 +70,8 @@ Json describe_scene(const PreparedScene& p) {
         j["families"].push_back(
             {{"family", need.family}, {"needed", need.needed}, {"why", need.why}});
     j["left_out"] = Json::array();
-    for (const FamilyNeed& need : family_needs(f))
-        if (!need.needed) j["left_out"].push_back({{"what", need.family}, {"why", need.why}});
+    for (const LeaveOut& line : leave_outs(*p.scene))
+        j["left_out"].push_back({{"what", line.what}, {"why", line.why}});
     j["not_covered"] = Json::array();
     for (const Technique t : {Technique::path, Technique::light, Technique::bdpt})
         for (const std::string& what : not_covered(f, families_of(t), t == Technique::light))
@@ -91,27 +93,15 @@ void print_text(const Json& j) {
     if (j.contains("sky")) fmt::print("  sky: {}\n", j["sky"].get<std::string>());
     for (const Json& e : j["edits"]) fmt::print("  edited: {}\n", e.get<std::string>());
     for (const Json& f : j["families"])
-        fmt::print("  {}: {} ({})\n", f["family"].get<std::string>(),
-                   f["needed"].get<bool>() ? "used" : "left out", f["why"].get<std::string>());
+        if (f["needed"].get<bool>())
+            fmt::print("  used: {}: {}\n", f["family"].get<std::string>(),
+                       f["why"].get<std::string>());
+    for (const Json& l : j["left_out"])
+        fmt::print("  left out: {}: {}\n", l["what"].get<std::string>(),
+                   l["why"].get<std::string>());
     for (const Json& n : j["not_covered"])
         fmt::print("  {} does not cover: {}\n", n["technique"].get<std::string>(),
                    n["what"].get<std::string>());
-    if (!j.contains("plan")) return;
-    fmt::print("  auto: {}\n    {:<76} {:>6} {:>9} {:>8}\n", j["plan"]["what"].get<std::string>(),
-               "relative to plain bdpt, expected", "cost", "error", "time");
-    const auto figure = [](const Json& x) {
-        return x.is_null() ? std::string("-") : fmt::format("{:.3g}", x.get<double>());
-    };
-    for (const Json& f : j["plan"]["weighed_up"])
-        fmt::print("    {:<76} {:>6} {:>9} {:>8}\n", f["what"].get<std::string>(),
-                   figure(f["cost"]), figure(f["error"]), figure(f["time"]));
-}
-
-// With the settings that `midway render` has by default.
-Json cost_json(const PreparedScene& p) {
-    RenderSettings s;
-    s.technique = Technique::automatic;
-    return plan_json(*choose_plan(*p.scene, p.camera, s, 0));
 }
 
 }  // namespace
@@ -120,20 +110,29 @@ Command add_info_command(CLI::App& app) {
     auto options = std::make_shared<SceneOptions>();
     auto json = std::make_shared<bool>(false);
     auto cost = std::make_shared<bool>(false);
+    auto job = std::make_shared<CostJob>();
     CLI::App& sub = *app.add_subcommand("info", "What is in a scene, and what it needs");
     add_scene_options(sub, *options);
     sub.add_flag("--json", *json, "Print JSON");
-    sub.add_flag("--cost", *cost, "What auto would leave out, and what that saves");
-    return [options, json, cost, &sub] {
+    CLI::Option* wanted =
+        sub.add_flag("--cost", *cost, "Measure what each leave-out saves; up to a minute");
+    add_threads_option(sub, job->options.threads);
+    sub.add_option("--rounds", job->options.rounds, "Rounds of each measurement, in turns")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1000))
+        ->needs(wanted);
+    return [options, json, cost, job, &sub] {
         take_session(sub, *options, *json);
         const PreparedScene p = prepare_scene(*options);
         Json j = describe_scene(p);
-        if (*cost) j["plan"] = cost_json(p);
+        job->quiet = *json;
+        if (*cost) j.update(cost_json(p, *job));
         if (*json) {
             fmt::print("{}\n", j.dump(2));
         } else {
             print_warnings(p.warnings);
             print_text(j);
+            if (*cost) print_cost(j);
         }
         return static_cast<int>(exit_done);
     };

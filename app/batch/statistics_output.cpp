@@ -6,6 +6,7 @@
 #include "outputs.h"
 #include "plan_json.h"
 #include "render/coverage.h"
+#include "render/leave_outs.h"
 
 namespace midway {
 namespace {
@@ -57,11 +58,15 @@ Json run_json(const PreparedScene& p, const RenderSettings& settings, const Prog
 }
 
 // What the scene does not need, and what the technique cannot show of it.
-void add_gaps(Json& j, const PreparedScene& p, Technique technique, const Estimator& e) {
+void add_gaps(Json& j, const PreparedScene& p, Technique technique, const ProgressiveRenderer& r) {
+    const Estimator& e = r.estimator();
     const SceneFeatures features = scene_features(*p.scene);
     j["left_out"] = Json::array();
-    for (const FamilyNeed& need : family_needs(features))
-        if (!need.needed) j["left_out"].push_back({{"what", need.family}, {"why", need.why}});
+    for (const LeaveOut& line : leave_outs(*p.scene))
+        j["left_out"].push_back({{"what", line.what}, {"why", line.why}});
+    if (r.layers().empty())
+        j["left_out"].push_back(
+            {{"what", "strategy images"}, {"why", "nobody asked for them (--strategies)"}});
     j["not_covered"] = Json::array();
     for (const std::string& what : not_covered(features, e.families, e.direct_lamps))
         j["not_covered"].push_back({{"technique", to_string(technique)}, {"what", what}});
@@ -82,7 +87,7 @@ void write_stats(const std::string& path, const PreparedScene& p, const RenderSe
     j["film_overflow"] = s.fixed.overflow;
     j["clamped"] = s.clamped;
     j["strategies"] = strategies_json(s);
-    add_gaps(j, p, settings.technique, r.estimator());
+    add_gaps(j, p, settings.technique, r);
     if (figures.decision) {
         j["plan"] = plan_json(*figures.decision);
         const Families before = families_of(settings.technique), now = r.estimator().families;

@@ -10,6 +10,7 @@
 #include "files.h"
 #include "render/coverage.h"
 #include "render/film_file.h"
+#include "render/leave_outs.h"
 #include "script_set.h"
 #include "strategy_view.h"
 
@@ -35,6 +36,9 @@ bool update_camera(Document& d) {
 void update_coverage(App& app) {
     Document& d = app.document;
     d.not_covered.clear();
+    d.left_out.clear();
+    for (const LeaveOut& line : leave_outs(*d.prepared->scene))
+        d.left_out.push_back(line.what + ": " + line.why);
     try {
         const Estimator e =
             make_estimator(*d.prepared->scene, d.prepared->camera, job_settings(app.render));
@@ -131,7 +135,7 @@ bool take_images(App& app, Engine& engine) {
     if (snapshot == app.snapshot && channels == app.channels) return false;
     app.snapshot = std::move(snapshot);
     // What `auto` decided belongs to what its files say.
-    if (app.snapshot && app.snapshot->plan)
+    if (app.snapshot && app.snapshot->scale == 1 && app.snapshot->plan)
         for (SubmittedJob& job : engine.jobs)
             if (job.number == app.snapshot->job) job.settings.plan = app.snapshot->plan;
     app.channels = std::move(channels);

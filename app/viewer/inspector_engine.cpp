@@ -120,12 +120,18 @@ InspectTask task_of(const App& app, const SubmittedJob& job) {
     return t;
 }
 
+// Before `auto` has its plan, nobody knows which paths the image's samples are made of.
+bool is_undecided(const RenderSettings& s) {
+    return s.technique == Technique::automatic && !s.plan;
+}
+
 // A new wish of the panel, once the image can answer it.
 void take_wish(App& app, InspectEngine& workers, const SubmittedJob& job) {
     InspectorState& s = app.ui.panel.inspector;
     const Snapshot& snapshot = *app.snapshot;
     // The samples of a coarse image are none of the image's own.
     if (s.wish.find != Find::sample && snapshot.scale != 1) return;
+    if (is_undecided(job.settings)) return;
     workers.wish = s.wish.number;
     workers.job = job.number;
     workers.path = job.prepared->options.path;
@@ -141,12 +147,22 @@ void take_wish(App& app, InspectEngine& workers, const SubmittedJob& job) {
     workers.sampler.submit(task_of(app, job));
 }
 
+// What a sample taken before is inspected with now. A plan of `auto` belongs to the camera it was
+// decided for, and so does the sample.
+RenderSettings settings_for(const InspectorState& s, const RenderSettings& now) {
+    const RenderSettings& was = s.shown->what.settings;
+    RenderSettings settings = now;
+    if (s.camera_moved && was.plan && now.plan) settings.plan = was.plan;
+    return settings;
+}
+
 // The same sample again, with what is rendered now, seen by the camera it was taken with.
 void inspect_again(App& app, InspectEngine& workers, const SubmittedJob& job) {
     InspectorState& s = app.ui.panel.inspector;
     const InspectedSample& sample = s.shown->sample;
     InspectTask t = task_of(app, job);
     t.what.camera = s.shown->what.camera;
+    t.what.settings = settings_for(s, job.settings);
     t.of = {sample.x, sample.y};
     t.wish.find = Find::sample;
     t.wish.pixel = s.shown->watched;
@@ -157,6 +173,8 @@ void inspect_again(App& app, InspectEngine& workers, const SubmittedJob& job) {
 void follow_job(App& app, InspectEngine& workers, const SubmittedJob& job) {
     InspectorState& s = app.ui.panel.inspector;
     const bool new_job = workers.job != job.number;
+    if (s.shown) s.camera_moved = !same_camera(s.shown->what.camera, job.prepared->camera);
+    if (is_undecided(job.settings)) return;
     workers.job = job.number;
     if (!s.shown) {
         // The search goes on in what is rendered now.
@@ -164,7 +182,6 @@ void follow_job(App& app, InspectEngine& workers, const SubmittedJob& job) {
         return;
     }
     const Inspectable& was = s.shown->what;
-    s.camera_moved = !same_camera(was.camera, job.prepared->camera);
     if (new_job && s.progress) {
         workers.sampler.cancel();
         s.progress.reset();
@@ -175,7 +192,8 @@ void follow_job(App& app, InspectEngine& workers, const SubmittedJob& job) {
         return;
     }
     const bool another_scene = was.scene != job.prepared->scene;
-    if (new_job && (another_scene || settings_json(was.settings) != settings_json(job.settings)))
+    if (new_job && (another_scene ||
+                    settings_json(was.settings) != settings_json(settings_for(s, job.settings))))
         inspect_again(app, workers, job);
     else if (s.shown->exponent != shown_exponent(app) && !workers.sampler.busy())
         inspect_again(app, workers, job);

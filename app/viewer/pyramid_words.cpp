@@ -91,12 +91,16 @@ void update_left_out(App& app) {
     if (!d.prepared) return;
     const Scene& scene = *d.prepared->scene;
     const std::uint64_t job = app.snapshot ? app.snapshot->job : 0;
-    if (panel.left_out_scene == &scene && panel.left_out_job == job) return;
+    const std::optional<Plan> plan = app.snapshot ? app.snapshot->plan : std::nullopt;
+    if (panel.left_out_scene == &scene && panel.left_out_job == job && panel.left_out_plan == plan)
+        return;
     panel.left_out_scene = &scene;
     panel.left_out_job = job;
+    panel.left_out_plan = plan;
     panel.left_out.assign(strategy_count(cell_edges), {});
     try {
-        const RenderSettings& settings = app.render.settings;
+        RenderSettings settings = app.render.settings;
+        settings.plan = plan;
         const Estimator e = make_estimator(scene, d.prepared->camera, settings);
         const SceneFeatures features = scene_features(scene);
         for (int edges = 1; edges <= cell_edges; ++edges)

@@ -167,6 +167,7 @@ void write_report(const std::string& path, const App& app, const Mark& mark) {
     j["scene"] = app.document.path;
     j["error"] = app.document.error;
     j["warnings"] = app.document.warnings;
+    j["left_out"] = app.document.left_out;
     j["notice"] = app.ui.notice;
     j["first_pixels"] = app.timings.first_pixels;
     j["frames"] = summary(app.timings.frames);

@@ -45,6 +45,7 @@ struct Document {
     std::uint64_t stamp = 0;                        // file_stamp(files) then
     std::vector<std::string> warnings;
     std::vector<std::string> not_covered;  // by the technique in use, in words
+    std::vector<std::string> left_out;     // because the scene does not need it, in words
     std::string loading;                   // path under way, empty where none is
     float progress = 0;                    // of loading, 0..1
     std::string stage;                     // of loading, in words
@@ -55,7 +56,7 @@ struct Document {
 // members when a render starts. The image has settings.width x height pixels; with `fit_window`
 // they follow the view when the window (not a panel) changes its size.
 struct RenderChoices {
-    RenderSettings settings;
+    RenderSettings settings{.technique = Technique::automatic};
     double exponent = 2;       // the one that is shown, 0..8
     double free_exponent = 4;  // the last one chosen that is none of 0, 1, 2
     bool same_paths = false;   // exponents 0, 1, 2 and free_exponent from the same paths

@@ -8,6 +8,7 @@ Subject subject_of(const PreparedScene& scene, const RenderSettings& settings) {
     RenderSettings same = settings;
     const RenderSettings usual;
     same.technique = usual.technique;
+    same.plan.reset();
     same.exponents = usual.exponents;
     same.sampler = usual.sampler;
     same.seed = usual.seed;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "render/settings.h"
 #include "viewer/camera_control.h"
 #include "viewer/gallery.h"
 #include "viewer/inspector_state.h"
@@ -119,6 +120,7 @@ struct PyramidPanel {
     // Why a strategy takes no part, by strategy_index; empty where it does. Found once for a job.
     std::vector<std::string> left_out;
     std::uint64_t left_out_job = 0;
+    std::optional<Plan> left_out_plan;
     const void* left_out_scene = nullptr;
     // Cells as drawn last, for the report.
     struct Cell {

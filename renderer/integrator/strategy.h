@@ -55,6 +55,10 @@ struct Families {
         return {emitter_hit && o.emitter_hit, next_event && o.next_event,
                 light_tracing && o.light_tracing, connection && o.connection};
     }
+    Families operator|(const Families& o) const {
+        return {emitter_hit || o.emitter_hit, next_event || o.next_event,
+                light_tracing || o.light_tracing, connection || o.connection};
+    }
 };
 
 // "emitter,next-event,light,connect", any subset; throws std::runtime_error for other words.

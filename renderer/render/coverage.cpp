@@ -56,6 +56,7 @@ std::string_view kind_word(LightKind k) {
 SceneFeatures scene_features(const Scene& s) {
     SceneFeatures f;
     f.transparent = s.has_transparency;
+    f.lit = s.emission_pick.total > 0;
     for (const Object& o : s.geometry->objects) {
         const Material& m = s.materials[o.material];
         // Textures can only lower roughness, metalness and transmission below their factors.
@@ -72,7 +73,7 @@ SceneFeatures scene_features(const Scene& s) {
     std::set<std::string_view> kinds;
     for (size_t i = 0; i < s.lights.size(); ++i) {
         const Light& l = s.lights[i];
-        if (!(l.power > 0)) continue;
+        if (!(l.power > 0) || (is_delta(l.kind) && !l.reaches)) continue;
         // One triangle of a lamp that shines speaks for all that follow; there may be a million.
         if (l.kind == LightKind::area)
             i = static_cast<size_t>(s.first_light[l.object]) +
@@ -87,14 +88,13 @@ SceneFeatures scene_features(const Scene& s) {
 
 std::vector<FamilyNeed> family_needs(const SceneFeatures& f) {
     std::vector<FamilyNeed> needs;
-    const bool any_light = f.delta_lights || f.hittable_lights;
     needs.push_back({"emitter", f.hittable_lights,
                      f.hittable_lights ? "there are lamps or a sky that a ray can hit"
                                        : "no light here can be hit by a ray"});
-    const bool connects = f.rough && any_light;
-    const std::string why_not = any_light
+    const bool connects = f.rough && f.lit;
+    const std::string why_not = f.lit
                                     ? "no surface here can be connected to: all are smooth or black"
-                                    : "there is no light";
+                                    : "no light reaches a surface";
     needs.push_back(
         {"next-event", connects, connects ? "rough surfaces can be connected to lights" : why_not});
     needs.push_back(
@@ -111,7 +111,7 @@ std::vector<std::string> not_covered(const SceneFeatures& f, const Families& fam
     for (const bool hittable : {true, false}) {
         if (!(hittable ? f.hittable_lights : f.delta_lights)) continue;
         std::vector<Pattern> shortest;
-        for (int n = 0; n <= longest; ++n)
+        for (int n = 0; n <= (f.lit ? longest : 0); ++n)
             for (int bits = 0; bits < (1 << n); ++bits) {
                 Pattern p;
                 for (int i = 0; i < n; ++i) p += (bits >> i) & 1 ? 'S' : 'R';
@@ -151,7 +151,12 @@ std::string why_left_out(const Strategy& k, const SceneFeatures& f, const Estima
         return f.hittable_lights ? ""
                                  : "only lamps without size (" + f.delta_light_names +
                                        "): nothing that a ray could hit";
-    return f.rough ? "" : "all surfaces are mirrors, clear glass or black: nothing to connect";
+    if (!f.lit) return "no light reaches a surface";
+    if (!f.rough) return "all surfaces are mirrors, clear glass or black: nothing to connect";
+    const bool planned = settings.technique == Technique::automatic && settings.plan;
+    return planned && !settings.plan->families.has(family)
+               ? "auto found that this image needs less time without it"
+               : "";
 }
 
 }  // namespace midway

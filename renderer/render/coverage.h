@@ -11,10 +11,11 @@
 namespace midway {
 
 struct SceneFeatures {
-    bool rough = false;        // surfaces that can be connected to
-    bool smooth = false;       // surfaces with a delta lobe
-    bool transparent = false;  // alpha below one
-    bool hittable_lights = false;
+    bool rough = false;            // surfaces that can be connected to
+    bool smooth = false;           // surfaces with a delta lobe
+    bool transparent = false;      // alpha below one
+    bool lit = false;              // a light reaches a surface
+    bool hittable_lights = false;  // also such as shine on nothing: the camera sees them
     bool delta_lights = false;
     std::string delta_light_names;  // kinds, for messages: "point, spot"
 };

@@ -103,8 +103,8 @@ void LiveRender::fail(Running& r, const std::string& error) {
 }
 
 // What `auto` renders with. Coarse images make do with the plan of the image before, so that a drag
-// does not wait; the image itself has the plan that `midway render` would decide on. False where the
-// job was replaced.
+// does not wait; the image itself has the plan that `midway render` would decide on. False where
+// the job was replaced.
 bool LiveRender::plan(Running& r) {
     LiveJob& job = r.pending.job;
     if (job.settings.technique != Technique::automatic) return true;
@@ -267,7 +267,7 @@ bool LiveRender::publish(Running& r, bool finished) {
     s->crop = job.settings.crop.value_or(PixelRect{0, 0, s->width, s->height});
     s->placement = r.view.placement;
     s->exponents = job.settings.exponents;
-    if (r.scale == 1 && job.settings.plan) {
+    if (job.settings.technique == Technique::automatic) {
         s->plan = job.settings.plan;
         s->plan_in_words = plan_in_words_;
     }

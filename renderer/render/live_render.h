@@ -31,8 +31,8 @@ struct Snapshot {
     PixelRect crop;             // of the job
     ImagePlacement placement;   // where the images below lie in the whole image
     std::vector<double> exponents;
-    std::optional<Plan> plan;  // of `auto`
-    std::string plan_in_words;
+    std::optional<Plan> plan;   // of `auto`: what these images were rendered with
+    std::string plan_in_words;  // the last that was decided on; of coarse images the one before
     // One of each per exponent, from the same paths. Variances (of the mean, resolve_variance) are
     // null with fewer than two passes.
     std::vector<std::shared_ptr<const Image>> images, variances;

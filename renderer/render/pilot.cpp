@@ -208,8 +208,11 @@ std::string describe(const PlanDecision& decision) {
     const PlanForecast& f = decision.chosen();
     if (decision.forecasts.size() < 2)
         return describe(f.plan) + ": no other plan covers what it covers";
-    return fmt::format("{}; expected {:.2g} of the time of plain bdpt for the same error",
-                       describe(f.plan), f.time());
+    if (f.cost == 1 && f.error == 1)
+        return describe(f.plan) + ": plain bdpt, nothing faster is expected";
+    const double percent = 100 * f.time();
+    return fmt::format("{}; expected {:.{}f} % of the time of plain bdpt for the same error",
+                       describe(f.plan), percent, percent < 9.95 ? 1 : 0);
 }
 
 std::optional<PlanDecision> choose_plan(const Scene& scene, const CameraDescription& camera,

@@ -44,7 +44,7 @@ constexpr std::pair<std::string_view, FilterKind> filters[] = {
 // Families that cannot find anything in this scene cost nothing and weigh nothing.
 void leave_out(const SceneFeatures& features, Families& f) {
     f.emitter_hit &= features.hittable_lights;
-    const bool connects = features.rough && (features.hittable_lights || features.delta_lights);
+    const bool connects = features.rough && features.lit;
     f.next_event &= connects;
     f.light_tracing &= connects;
     f.connection &= connects;
@@ -115,15 +115,17 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
                "use X0,Y0,X1,Y1 with 0 <= X0 < X1 <= width, and the same for Y");
     e.families = families_of(s.technique);
     if (s.families) e.families = e.families & *s.families;
+    const Families asked_for = e.families;
     const bool planned = s.technique == Technique::automatic && s.plan;
     if (planned) e.families = e.families & s.plan->families;
     leave_out(scene_features(scene), e.families);
+    e.roulette_start = roulette_start(e.families);
+    e.families = e.families | (asked_for & s.needless);
     e.weighed.fill(e.families);
     e.direct_lamps = s.technique == Technique::light;
     e.exponent_count = static_cast<int>(s.exponents.size());
     std::copy(s.exponents.begin(), s.exponents.end(), e.exponents.begin());
     e.max_bounces = s.max_bounces;
-    e.roulette_start = roulette_start(e.families);
     e.seed = s.seed;
     e.sampler = s.sampler;
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());

@@ -34,6 +34,9 @@ struct RenderSettings {
     std::optional<float> clamp;  // largest component of a weighted contribution
     std::vector<Strategy> only;  // where not empty: record these strategies alone
     bool unweighted = false;     // record bare estimates
+    // Families that the scene does not need and that are gone through all the same: they find
+    // nothing, and the time it takes can be measured (report/cost.h). No file says so.
+    Families needless{false, false, false, false};
 };
 
 std::string_view to_string(Technique t);

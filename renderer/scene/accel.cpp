@@ -93,7 +93,8 @@ struct Accel::Embree {
     }
 };
 
-Accel::Accel(std::shared_ptr<const Geometry> geometry) : geometry_(std::move(geometry)) {
+Accel::Accel(std::shared_ptr<const Geometry> geometry, bool ask_all)
+    : geometry_(std::move(geometry)) {
     const auto embree = std::make_shared<Embree>();
     embree_ = embree;
     Embree& e = *embree;
@@ -121,7 +122,7 @@ Accel::Accel(std::shared_ptr<const Geometry> geometry) : geometry_(std::move(geo
         }
         std::copy(o.positions.begin(), o.positions.end(), static_cast<vec3*>(vertices));
         std::copy(o.triangles.begin(), o.triangles.end(), static_cast<uvec3*>(indices));
-        if (o.may_be_transparent) {
+        if (o.may_be_transparent || ask_all) {
             rtcSetGeometryIntersectFilterFunction(g, flip_coin);
             rtcSetGeometryOccludedFilterFunction(g, multiply_through);
         }

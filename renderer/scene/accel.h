@@ -41,8 +41,9 @@ struct AlphaLookup {
 
 class Accel {
   public:
-    // Keeps the geometry alive. Throws std::runtime_error where Embree refuses.
-    explicit Accel(std::shared_ptr<const Geometry> geometry);
+    // Keeps the geometry alive. Throws std::runtime_error where Embree refuses. `ask_all`: opaque
+    // objects are asked for their coverage too.
+    explicit Accel(std::shared_ptr<const Geometry> geometry, bool ask_all = false);
     // The same tree, for one thread: each ray is written to `log` too.
     Accel(const Accel& other, RayLog& log);
     ~Accel();

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/reach.h"
+
 namespace midway {
 namespace {
 
@@ -137,7 +139,8 @@ bool same_shape(const Scene& a, const Scene& b) {
     const auto same = [](const Light& x, const Light& y) {
         return x.kind == y.kind && x.object == y.object && x.triangle == y.triangle &&
                x.two_sided == y.two_sided && (x.power > 0) == (y.power > 0) &&
-               x.position == y.position && x.direction == y.direction && x.cos_outer == y.cos_outer;
+               x.reaches == y.reaches && x.position == y.position && x.direction == y.direction &&
+               x.cos_outer == y.cos_outer;
     };
     return a.geometry == b.geometry &&
            std::equal(a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(), same);
@@ -170,18 +173,20 @@ void make_light_tables(Scene& s, const Scene* previous) {
     power.reserve(s.lights.size());
     next_event.reserve(s.lights.size());
     size_t shining = 0;
+    double picked = 0;
     for (const Light& l : s.lights) {
-        power.push_back(l.power);
+        power.push_back(l.reaches ? l.power : 0);
         s.total_power += l.power;
-        shining += l.power > 0;
+        picked += power.back();
+        shining += power.back() > 0;
     }
     if (!std::isfinite(s.total_power))
         throw std::runtime_error(
             "the lights' power is not finite (emission or intensity); use smaller numbers");
     // From the short list: the lights themselves are many times as large.
     for (const double p : power)
-        next_event.push_back(
-            p > 0 ? (1 - even_share) * p / s.total_power + even_share / double(shining) : 0.0);
+        next_event.push_back(p > 0 ? (1 - even_share) * p / picked + even_share / double(shining)
+                                   : 0.0);
     s.emission_pick = make_distribution(power);
     make_light_tree(s, std::move(next_event), previous);
 }
@@ -209,7 +214,8 @@ size_t count_lights(const Scene& s, const SceneDescription& d) {
 
 }  // namespace
 
-void build_lights(Scene& s, const SceneDescription& d, const Scene* previous) {
+void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& options) {
+    const Scene* previous = options.previous;
     for (Material& m : s.materials) m.emission *= d.lamp_strength;
     s.lights.reserve(count_lights(s, d));
     find_emission_means(s, previous);
@@ -217,6 +223,7 @@ void build_lights(Scene& s, const SceneDescription& d, const Scene* previous) {
     for (const PunctualLight& l : d.lights)
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
+    if (!options.needless.lights) find_reach(s);
     make_light_tables(s, previous);
     if (s.total_power > 0) s.same_lamp = same_lamp_probability(s);
 }

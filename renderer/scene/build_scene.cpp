@@ -1,5 +1,6 @@
 #include "scene/build_lights.h"
 #include "scene/duplicates.h"
+#include "scene/needless.h"
 #include "scene/scene.h"
 
 namespace midway {
@@ -74,9 +75,46 @@ bool any_alpha(const SceneDescription& d, const Material& m, const Mesh& mesh) {
     return false;
 }
 
-std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool normalised) {
+// Which of a mesh's attributes the textures of a material ask for.
+struct Wanted {
+    bool texcoords[2] = {false, false};
+    bool tangents = false;
+};
+
+Wanted wanted_attributes(const Material& m) {
+    Wanted w;
+    for (const TextureRef* t : texture_refs(m))
+        if (t->used()) w.texcoords[t->texcoord] = true;
+    w.tangents = m.normal_texture.used();
+    return w;
+}
+
+// Without those that nothing asks for: every hit would interpolate them. True where there were any.
+bool drop_attributes(const Material& m, Object& o) {
+    const Wanted w = wanted_attributes(m);
+    bool any = false;
+    const auto drop = [&](auto& values, bool wanted) {
+        if (wanted || values.empty()) return;
+        values = {};
+        any = true;
+    };
+    drop(o.texcoords[0], w.texcoords[0]);
+    drop(o.texcoords[1], w.texcoords[1]);
+    drop(o.tangents, w.tangents);
+    return any;
+}
+
+// Whether an object built for one material has all that another asks for.
+bool has_attributes(const Material& built_for, const Material& m) {
+    const Wanted had = wanted_attributes(built_for), wants = wanted_attributes(m);
+    return (had.texcoords[0] || !wants.texcoords[0]) && (had.texcoords[1] || !wants.texcoords[1]) &&
+           (had.tangents || !wants.tangents);
+}
+
+std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d,
+                                               const BuildOptions& options) {
     auto g = std::make_shared<Geometry>();
-    if (normalised) g->normalisation = normalise(d);
+    if (options.normalise) g->normalisation = normalise(d);
     float radius2 = 0;
     for (size_t k = 0; k < d.instances.size(); ++k) {
         const Instance& i = d.instances[k];
@@ -88,8 +126,14 @@ std::shared_ptr<const Geometry> build_geometry(const SceneDescription& d, bool n
         o.texcoords = mesh.texcoords;
         o.colors = mesh.colors;
         transform_vertices(mesh, i.to_world, g->normalisation, o);
+        const bool spared =
+            !options.needless.attributes && drop_attributes(d.materials[i.material], o);
+        // Any will do that is no surface's normal.
+        if (options.needless.normal_maps && o.tangents.empty())
+            o.tangents.assign(o.positions.size(), {0.48f, 0.6f, 0.64f, 1});
         copy_triangles(mesh, glm::determinant(dmat3(i.to_world)) < 0, o, g->dropped);
         if (o.triangles.empty()) continue;
+        g->spared_objects += spared;
         o.may_be_transparent = any_alpha(d, d.materials[i.material], mesh);
         o.closed = is_closed_mesh(o.positions, o.triangles);
         g->objects.push_back(std::move(o));
@@ -117,6 +161,7 @@ bool still_fits(const Scene& previous, const SceneDescription& d) {
         const Instance& i = d.instances[o.instance];
         if (i.material != o.material) return false;
         const Material& m = d.materials[i.material];
+        if (!has_attributes(previous.materials[i.material], m)) return false;
         if (same_images && same_alpha(m, previous.materials[i.material])) continue;
         if (any_alpha(d, m, *d.meshes[i.mesh]) != o.may_be_transparent) return false;
     }
@@ -139,12 +184,14 @@ std::optional<Bounds> scene_bounds(const SceneDescription& d) {
 Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
                   const BuildOptions& options) {
     Scene s;
-    if (options.previous && still_fits(*options.previous, d)) {
+    const NeedlessWork& needless = options.needless;
+    const bool own_geometry = needless.attributes || needless.coverage || needless.normal_maps;
+    if (options.previous && !own_geometry && still_fits(*options.previous, d)) {
         s.geometry = options.previous->geometry;
         s.accel = options.previous->accel;
     } else {
-        s.geometry = build_geometry(d, options.normalise);
-        s.accel = std::make_shared<Accel>(s.geometry);
+        s.geometry = build_geometry(d, options);
+        s.accel = std::make_shared<Accel>(s.geometry, needless.coverage);
     }
     if (s.geometry->dropped > 0)
         warnings.push_back(std::to_string(s.geometry->dropped) +
@@ -154,10 +201,11 @@ Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
                            " triangles are there a second time and are left out");
     s.materials = d.materials;
     s.textures = d.images;
+    add_needless_textures(s, needless);
     // A margin for the rounding of positions, so that the disc covers everything.
     s.radius = s.geometry->radius * (1 + 0x1p-20f);
     for (const Object& o : s.geometry->objects) s.has_transparency |= o.may_be_transparent;
-    build_lights(s, d, options.previous);
+    build_lights(s, d, options);
     return s;
 }
 

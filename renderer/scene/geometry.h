@@ -11,7 +11,9 @@
 
 namespace midway {
 
-// The triangles of one instance of a mesh. Attribute arrays are empty or as long as `positions`.
+// The triangles of one instance of a mesh. Attribute arrays are empty or as long as `positions`;
+// texture coordinates and tangents are there only where the material has a texture that asks for
+// them.
 struct Object {
     std::string name;
     int instance = 0;  // of the description
@@ -37,8 +39,9 @@ struct Geometry {
     Normalisation normalisation;
     float radius = 1;  // of all positions about the origin, in [0.5, 1); 1 where there are none
     size_t triangle_count = 0;
-    size_t dropped = 0;     // triangles that have no area left in float
-    size_t duplicates = 0;  // triangles left out because they are there already
+    size_t dropped = 0;         // triangles that have no area left in float
+    size_t duplicates = 0;      // triangles left out because they are there already
+    size_t spared_objects = 0;  // that have attributes in the file, and no texture asks for them
 };
 
 // Where a ray met a triangle: b1 and b2 are the barycentric weights of its vertices 1 and 2.

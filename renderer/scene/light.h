@@ -32,7 +32,8 @@ struct Light {
     int object = -1, triangle = -1;      // area
     float area = 0;
     bool two_sided = false;
-    double power = 0;  // mean of RGB
+    bool reaches = true;  // false: it sends no light to any surface (reach.h)
+    double power = 0;     // mean of RGB
 };
 
 inline bool is_infinite(LightKind k) { return k == LightKind::directional || k == LightKind::sky; }

@@ -35,10 +35,22 @@ struct Scene {
     int sky_light = -1;
     std::vector<int> first_light;  // of each object: the light of its triangle 0, or -1
     std::vector<EmissionMeans> emission_means;  // of each object, null where they are one
-    float radius = 1;        // of the bounding disc that infinite lights emit from
-    double total_power = 0;  // of all lights, mean of RGB, in scene units
-    double same_lamp = 0;    // probability that two lights picked by power belong to one lamp
+    float radius = 1;             // of the bounding disc that infinite lights emit from
+    double total_power = 0;       // of all lights, mean of RGB, in scene units
+    double same_lamp = 0;         // probability that two lights picked by power are one lamp's
+    size_t unreached_lights = 0;  // shine, and on no surface: they are never picked
+    double unreached_power = 0;
     bool has_transparency = false;
+};
+
+// Work that a scene leaves out because nothing in it needs it. What is true here is done all the
+// same: it takes time and changes no image, so that the time can be measured (report/cost.h).
+struct NeedlessWork {
+    bool attributes = false;   // texture coordinates and tangents that no texture asks for are kept
+    bool textures = false;     // white ones are looked up where a material has none
+    bool normal_maps = false;  // the same of flat ones
+    bool coverage = false;     // rays ask opaque triangles how opaque they are
+    bool lights = false;       // lights that reach nothing are picked too
 };
 
 // Throws std::runtime_error with one line for a scene that cannot be traced. Lines for things that
@@ -48,6 +60,7 @@ struct BuildOptions {
     // materials allow it.
     const Scene* previous = nullptr;
     bool normalise = true;  // false: traced in the file's coordinates, for tests
+    NeedlessWork needless = {};
 };
 Scene build_scene(const SceneDescription& description, std::vector<std::string>& warnings,
                   const BuildOptions& options = {});

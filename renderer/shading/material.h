@@ -2,6 +2,7 @@
 // below), plain data. evaluate_material() in shading/bsdf.h turns one into a Bsdf at a point.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -59,5 +60,12 @@ struct Material {
     TextureRef specular_color_texture;  // sRGB
     bool has_thickness = false;  // KHR_materials_volume with thicknessFactor > 0: a solid body
 };
+
+// Every place for a texture that a material has, used or not.
+inline std::array<const TextureRef*, 7> texture_refs(const Material& m) {
+    return {&m.base_color_texture,    &m.metallic_roughness_texture, &m.normal_texture,
+            &m.emission_texture,      &m.transmission_texture,       &m.specular_texture,
+            &m.specular_color_texture};
+}
 
 }  // namespace midway

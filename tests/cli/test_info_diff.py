@@ -19,6 +19,25 @@ class Info(CliTest):
         text = self.run_midway("info", self.scene).stdout
         for word in ["eye", "point"]:
             self.assertIn(word, text)
+        self.assertIn("left out: textures: no material has one", text)
+        self.assertIn("used: connect:", text)
+
+    def test_measures_what_each_leave_out_saves(self):
+        text, told = (self.run_midway("info", self.scene, "--cost", "--rounds", 2, *more).stdout
+                      for more in ((), ("--json",)))
+        told = json.loads(told)
+        self.assertIn("families", told["plan"])
+        rows = {row["what"]: row for row in told["measured"]["rows"]}
+        for what in ("textures", "strategy images"):
+            self.assertRegex(text, rf"{what} +[0-9.]+ +[0-9.]+ .*same bits")
+            self.assertTrue(rows[what]["same_bits"], what)
+            self.assertGreater(rows[what]["seconds_done"]["median"], 0)
+            self.assertIn(what, {line["what"] for line in told["left_out"]} | {"strategy images"})
+        for what in ("transparency", "normal maps"):
+            self.assertLess(abs(rows[what]["mean_ratio"] - 1), 0.05, what)
+
+    def test_rounds_are_those_of_the_measurement(self):
+        self.refused("info", self.scene, "--rounds", 3, status=2)
 
 
 class Bench(CliTest):

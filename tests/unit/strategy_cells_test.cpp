@@ -264,6 +264,10 @@ TEST(StrategyCells, WordsSayWhyAStrategyIsLeftOut) {
     s.families = parse_families("emitter,next-event");
     EXPECT_NE(why({2, 2}).find("by you"), std::string::npos);
     s.families.reset();
+    s.technique = Technique::automatic;
+    s.plan = Plan{{true, true, true, false}, 2};
+    EXPECT_NE(why({2, 2}).find("auto"), std::string::npos);
+    EXPECT_EQ(why({1, 2}), "");
     s.technique = Technique::path;
     EXPECT_NE(why({1, 2}).find("path tracing"), std::string::npos);
     s.technique = Technique::light;

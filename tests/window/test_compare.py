@@ -191,7 +191,7 @@ class CompareByHand(HandsTest):
 
     def test_path_against_bdpt_on_the_idol(self):
         self.open_idol()
-        self.assertEqual(["bdpt:2"], [c["label"] for c in self.state()["curves"]])
+        self.assertEqual(["auto"], [c["label"] for c in self.state()["curves"]])
         self.hand("mousemove", 640, 300)
         self.press("1")
         self.assertEqual(["path"], [c["label"] for c in self.state()["curves"]][-1:])
@@ -246,7 +246,7 @@ class CompareByHand(HandsTest):
         self.press("2")
         state = self.state()
         self.assertEqual("", state["error"])
-        self.assertEqual({"path", "bdpt:2", "light"}, {c["label"] for c in state["curves"]})
+        self.assertEqual({"auto", "path", "bdpt:2", "light"}, {c["label"] for c in state["curves"]})
         self.assertEqual(0, next(c for c in state["curves"]
                                  if c["label"] == "bdpt:2")["points"][-1]["relmse"])
         self.assertGreater(next(c for c in state["curves"]

@@ -37,7 +37,7 @@ class Visit(HandsTest):
         first = self.save()
         self.look("1-open")
         self.assertEqual((64, 48), (first.width, first.height))
-        self.assertIn(b'"technique":"bdpt"', first.attributes["midway:settings"])
+        self.assertIn(b'"technique":"auto"', first.attributes["midway:settings"])
 
         self.drag(640, 300, -80, 24)
         self.look("2-orbit")

@@ -50,6 +50,22 @@ Change draw_changes(App& app) {
     return change;
 }
 
+// Work that this scene spares the renderer. The image is the same with it.
+void draw_left_out(const std::vector<std::string>& lines) {
+    if (lines.empty()) {
+        ImGui::TextColored(theme::text_dim, "Everything is needed here");
+        return;
+    }
+    const bool open = ImGui::TreeNode(
+        "left out", "%s", (counted(lines.size(), "thing", "things") + " not needed here").c_str());
+    ui::tip(
+        "Work that nothing in this scene asks for, found when it was loaded and left out of every "
+        "sample. The image does not change by it. midway info --cost measures what each saves.");
+    if (!open) return;
+    for (const std::string& line : lines) ui::wrapped(theme::text_dim, line);
+    ImGui::TreePop();
+}
+
 }  // namespace
 
 Change draw_scene(App& app) {
@@ -73,6 +89,7 @@ Change draw_scene(App& app) {
             for (const std::string& w : d.warnings) ui::note(theme::light, w);
             ImGui::TreePop();
         }
+        draw_left_out(d.left_out);
     } else {
         ui::wrapped(theme::text_dim, "No scene is open. Drop a .gltf or .glb file on the window.");
     }

@@ -86,6 +86,18 @@ Change draw_exponent(App& app) {
     return change;
 }
 
+// What `auto` decided. The last decision stays, dim, until the next is made: nothing below it may
+// jump at every turn of the camera.
+void draw_plan(const App& app) {
+    const bool known = app.snapshot && !app.snapshot->plan_in_words.empty();
+    const bool decided = known && app.snapshot->scale == 1;
+    ui::wrapped(decided ? theme::text : theme::text_dim,
+                known ? app.snapshot->plan_in_words : "A pilot finds out what it needs ...");
+    ui::tip(
+        "Decided before the image begins, from 65,536 samples that never enter it. While the "
+        "camera moves the last decision stays.");
+}
+
 void draw_not_covered(const App& app) {
     if (app.document.not_covered.empty()) return;
     std::string text = "Not covered by this technique:";
@@ -127,9 +139,7 @@ Change draw_technique(App& app) {
     if (ui::segmented("technique", techniques, technique))
         change |= choose_technique(app, static_cast<Technique>(technique));
     ui::wrapped(theme::text_dim, in_one_line(app.render.settings.technique));
-    if (app.render.settings.technique == Technique::automatic && app.snapshot &&
-        !app.snapshot->plan_in_words.empty())
-        ui::wrapped(theme::text, app.snapshot->plan_in_words);
+    if (app.render.settings.technique == Technique::automatic) draw_plan(app);
     draw_not_covered(app);
     change |= draw_exponent(app);
     const bool open = app.display.pyramid.open;
