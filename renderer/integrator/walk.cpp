@@ -42,7 +42,9 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
     l.pdf_origin = w.light_pdfs.origin;
     l.pdf_a = w.light_pdfs.leave * cos_in / (w.infinite_light ? 1 : distance2);
     l.g_light = w.infinite_light ? 1 : w.cos_previous / distance2;
-    l.next_event_ratio = next_event_ratio(*e.scene, w.light, w.vertex.position);
+    l.next_event_ratio = next_event_ratio(
+        *e.scene, w.light,
+        {w.vertex.position, static_cast<float>(w.cos_previous), static_cast<float>(distance2)});
     w.light_pdfs.next_event = static_cast<float>(w.light_pdfs.origin * l.next_event_ratio);
     for_each_exponent<F>(e, [&](const auto& h, int i) {
         l.hittable = w.hittable_light && e.weighed[i].emitter_hit;

@@ -81,6 +81,8 @@ void add_area_lights(Scene& s) {
             l.object = static_cast<int>(k);
             l.triangle = static_cast<int>(t);
             l.area = shape.area;
+            const uvec3& v = o.triangles[t];
+            l.position = (o.positions[v.x] + o.positions[v.y] + o.positions[v.z]) / 3.0f;
             l.two_sided = m.double_sided;
             l.power = pi_d * shape.area * (l.two_sided ? 2 : 1) *
                       mean_emission(m, s.emission_means[k], t);
@@ -195,7 +197,7 @@ void make_light_tables(Scene& s, const Scene* previous) {
 double same_lamp_probability(const Scene& s) {
     double sum = 0, lamp = 0;
     for (size_t i = 0; i < s.lights.size(); ++i) {
-        lamp += s.lights[i].power / s.total_power;
+        lamp += s.emission_pick.probability(static_cast<int>(i));
         const bool goes_on = s.lights[i].kind == LightKind::area && i + 1 < s.lights.size() &&
                              s.lights[i + 1].object == s.lights[i].object;
         if (goes_on) continue;
@@ -225,7 +227,7 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
     if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
     if (!options.needless.lights) find_reach(s);
     make_light_tables(s, previous);
-    if (s.total_power > 0) s.same_lamp = same_lamp_probability(s);
+    if (s.emission_pick.total > 0) s.same_lamp = same_lamp_probability(s);
 }
 
 }  // namespace midway

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/spherical_triangle.h"
 #include "math/warp.h"
 #include "scene/scene.h"
 
@@ -59,14 +60,35 @@ double next_event_probability(const Scene& s, int light, const vec3& reference) 
     return s.next_event_group.probability(0) * s.light_tree.probability(light, reference);
 }
 
-// Densities of a point on an area light with the emitted direction at cosine cos_theta, picked by
-// next event with probability `pick`.
-LightPdfs area_pdfs(const Scene& s, int light, float cos_theta, double pick) {
+// Whether next event draws a lamp's triangle by solid angle. Further off than this, cos / d^2
+// varies by too little over the lamp for that to be worth its time.
+bool is_near(const Light& l, const vec3& reference) {
+    return l.area > 0.05f * length_squared(l.position - reference);
+}
+
+TriangleFrom seen_from(const Scene& s, const Light& l, const vec3& reference) {
+    const Object& o = s.geometry->objects[l.object];
+    const uvec3& t = o.triangles[l.triangle];
+    const dvec3 r(reference);
+    return {dvec3(o.positions[t.x]) - r, dvec3(o.positions[t.y]) - r, dvec3(o.positions[t.z]) - r};
+}
+
+// Next event's density per area of a point on a triangle that it has picked, times the area. Zero
+// where the triangle is seen edge-on.
+double next_event_over_even(const Scene& s, const Light& l, const LightEdge& k) {
+    if (!is_near(l, k.reference)) return 1;
+    const double whole = solid_angle(seen_from(s, l, k.reference));
+    const double spread = double(l.area) * k.cos_theta;
+    return whole > 0 ? spread / (double(k.distance_squared) * whole) : 0;
+}
+
+// Densities of a point on an area light with the emitted direction at cosine cos_theta, next
+// event's being `next_event`.
+LightPdfs area_pdfs(const Scene& s, int light, float cos_theta, double next_event) {
     const Light& l = s.lights[light];
     const float sides = l.two_sided ? 0.5f : 1.0f;
     return {emission_probability(s, light) / l.area,
-            sides * cosine_hemisphere_pdf_w(std::abs(cos_theta)),
-            static_cast<float>(pick) / l.area};
+            sides * cosine_hemisphere_pdf_w(std::abs(cos_theta)), static_cast<float>(next_event)};
 }
 
 LightPdfs sky_pdfs(const Scene& s, const vec3& direction) {
@@ -142,11 +164,25 @@ void emit_sky(const Scene& s, const EmissionNumbers& u, EmissionSample& e) {
     e.weight = sky_radiance(*s.sky, sample.direction) / (e.pdfs.origin * e.pdfs.leave);
 }
 
+// Where next event looks at a triangle; `whole` is its solid angle, zero where it is far.
+TriangleHit next_event_place(const Scene& s, const Light& l, const vec3& reference, const vec2& u,
+                             double& whole) {
+    whole = 0;
+    if (!is_near(l, reference)) return area_place(l, u);
+    const TriangleFrom t = seen_from(s, l, reference);
+    whole = solid_angle(t);
+    if (!(whole > 0)) return {};
+    const vec2 b(sample_solid_angle(t, whole, u));
+    return {l.object, l.triangle, b.x, b.y};
+}
+
 // n.light has been picked with probability `pick`.
 void next_event_area(const Scene& s, double pick, const vec3& reference, const vec2& u,
                      NextEventSample& n) {
     const Light& l = s.lights[n.light];
-    const TriangleHit place = area_place(l, u);
+    double whole = 0;
+    const TriangleHit place = next_event_place(s, l, reference, u, whole);
+    if (place.object < 0) return;
     const TrianglePoint p = triangle_point(s.geometry->objects[l.object], place);
     const vec3 d = p.position - reference;
     n.distance_squared = length_squared(d);
@@ -158,7 +194,10 @@ void next_event_area(const Scene& s, double pick, const vec3& reference, const v
     n.normal = p.ng;
     n.error = p.error;
     n.cos_theta = std::abs(c);
-    n.pdfs = area_pdfs(s, n.light, c, pick);
+    const double even = 1 / double(l.area);
+    const double by_angle = n.cos_theta / (double(n.distance_squared) * whole);
+    n.pdfs = area_pdfs(s, n.light, c, pick * (whole > 0 ? by_angle : even));
+    if (!(n.pdfs.next_event > 0)) return;
     n.value = area_emission(s, place) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
 }
 
@@ -236,8 +275,11 @@ std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& ref
     return found;
 }
 
-double next_event_ratio(const Scene& s, int light, const vec3& reference) {
-    return next_event_probability(s, light, reference) / s.emission_pick.probability(light);
+double next_event_ratio(const Scene& s, int light, const LightEdge& k) {
+    const Light& l = s.lights[light];
+    const double picks =
+        next_event_probability(s, light, k.reference) / s.emission_pick.probability(light);
+    return l.kind == LightKind::area ? picks * next_event_over_even(s, l, k) : picks;
 }
 
 std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards,
@@ -251,7 +293,10 @@ std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, con
     // Coverage has been decided by the coin that let the ray hit.
     const vec3 radiance = material_emission(material_at(s, p), s.textures, p.shading);
     if (is_black(radiance)) return {};
-    return EmitterHit{radiance, area_pdfs(s, id, c, next_event_probability(s, id, reference))};
+    const LightEdge edge{reference, std::abs(c), length_squared(p.position - reference)};
+    const double next_event =
+        next_event_probability(s, id, reference) * next_event_over_even(s, l, edge) / l.area;
+    return EmitterHit{radiance, area_pdfs(s, id, c, next_event)};
 }
 
 std::optional<EmitterHit> sky_hit(const Scene& s, const vec3& direction) {

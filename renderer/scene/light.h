@@ -9,7 +9,8 @@
 //   pdf_origin           per area, times the pick        per solid angle, times the pick
 //   pdf_leave            per solid angle                 per area of the disc
 //   pdf_next_event       as pdf_origin, but with the probability that next event picks the light
-//                        with, which depends on the place that asks (light_tree.h)
+//                        with, which depends on the place that asks (light_tree.h); a triangle
+//                        that is near is drawn by its solid angle (math/spherical_triangle.h)
 // A Dirac factor (a point's position, a sun's direction) is left out: the pick alone remains.
 #pragma once
 
@@ -25,7 +26,7 @@ enum class LightKind : std::uint8_t { point, spot, directional, area, sky };
 
 struct Light {
     LightKind kind = LightKind::point;
-    vec3 position{0};   // point, spot
+    vec3 position{0};   // point, spot; area: its centroid
     vec3 direction{0};  // spot, directional: where the light travels, unit
     vec3 emission{0};   // intensity (scene units), irradiance, or unused for area and sky
     float cos_inner = 1, cos_outer = 0;  // spot
@@ -67,6 +68,13 @@ struct NextEventSample {
     LightPdfs pdfs;
     float cos_theta = 1;         // at the light
     float distance_squared = 1;  // 1 for infinite lights
+};
+
+// From a point on a light to the place that asks next event for it.
+struct LightEdge {
+    vec3 reference{0};
+    float cos_theta = 1;  // at the light, not negative
+    float distance_squared = 1;
 };
 
 // A light that a ray hit by chance.

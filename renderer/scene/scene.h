@@ -111,7 +111,7 @@ std::optional<NextEventSample> sample_next_event(const Scene& scene, const vec3&
                                                  const NextEventNumbers& u);
 
 // How much likelier next event at `reference` picks a light than emission does.
-double next_event_ratio(const Scene& scene, int light, const vec3& reference);
+double next_event_ratio(const Scene& scene, int light, const LightEdge& edge);
 
 // What the surface emits towards `towards`, with its densities; those of next event at `reference`.
 // Empty where it emits nothing there.
