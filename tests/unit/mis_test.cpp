@@ -75,6 +75,7 @@ TEST(MisRecursion, EqualsTheDirectFormForMadeUpDensities) {
         setting.families = families_of_bits(1 + random() % 15);
         if (i % 2) setting.families = {};
         setting.light_subpaths = i % 5 ? std::pow(10.0, double(random() % 7)) : 1;
+        setting.direct_share = i % 4 ? std::pow(10.0, -0.5 * double(random() % 4)) : 1;
         ASSERT_NO_FATAL_FAILURE(expect_same(make_up(random, m), setting)) << "path " << i;
     }
 }
@@ -121,6 +122,20 @@ TEST(MisRecursion, CountsTheSamplesOfLightTracing) {
     const std::vector<double> w = recursive_weights(p, p, setting, 1);
     EXPECT_NEAR(w[0], 1000.0 / 1004, 1e-12);
     for (int s = 2; s <= 5; ++s) EXPECT_NEAR(w[s - 1], 1.0 / 1004, 1e-12);
+}
+
+// Of direct light alone.
+TEST(MisRecursion, CountsAShareOfLightTracingOfDirectLight) {
+    PathPdfs p;
+    p.vertices.resize(3);
+    PathSetting setting;
+    setting.light_subpaths = 1000;
+    setting.direct_share = 0.1;
+    const std::vector<double> direct = recursive_weights(p, p, setting, 1);
+    EXPECT_NEAR(direct[0], 100.0 / 102, 1e-12);
+    for (int s = 2; s <= 3; ++s) EXPECT_NEAR(direct[s - 1], 1.0 / 102, 1e-12);
+    p.vertices.resize(4);
+    EXPECT_NEAR(recursive_weights(p, p, setting, 1)[0], 1000.0 / 1003, 1e-12);
 }
 
 TEST(MisRecursion, NaiveWeightsAreUniformOverFeasibleStrategies) {
