@@ -79,7 +79,7 @@ void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_
         if (extend<F>(e, *walk) != Reached::surface) return;
         const PathVertex& v = walk->vertex;
         if (v.connectible) {
-            if (e.families.light_tracing && record.wants({1, v.index + 1}))
+            if (e.splats(v.index + 1) && record.wants({1, v.index + 1}))
                 if (const auto s = connect_to_camera<F>(e, v, walk->numbers.connect, rays)) {
                     e.at(Work::film);
                     record.splat(s->x, s->y, s->contribution);

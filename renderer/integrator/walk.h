@@ -52,7 +52,7 @@ struct Estimator {
     // two edges: n there is light_subpaths times this. A camera sample's share of a pixel is
     // stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
     // Slusallek and Krivanek 2019, "Variance-aware multiple importance sampling"). See
-    // direct_share() in render/settings.h.
+    // direct_share() in render/settings.h. Zero: light tracing does not make such paths.
     double direct_share = 1;
 
     // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy
@@ -66,6 +66,9 @@ struct Estimator {
 
     // n of eq. (22) over light_subpaths, for paths of so many edges.
     double share_of(int edges) const { return edges == 2 ? direct_share : 1; }
+
+    // Whether light tracing makes paths of so many edges.
+    bool splats(int edges) const { return families.light_tracing && share_of(edges) > 0; }
 
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
     // In the weights of an exponent.

@@ -25,6 +25,11 @@ struct Prices {
     double subpath = 0.4, light_ray = 0.9, light_tracing = 0.75, connection = 0.65;
 };
 
+// Next event to a single lamp needs no help with direct light (direct_share()).
+bool splats_direct(const Scene& scene, const Families& f) {
+    return direct_share(scene, f) > least_direct_share;
+}
+
 // Plans that make every path the full one makes.
 Candidates find_candidates(const Scene& scene, const Estimator& full) {
     const SceneFeatures features = scene_features(scene);
@@ -34,6 +39,7 @@ Candidates find_candidates(const Scene& scene, const Estimator& full) {
     const Families& f = full.families;
     const std::vector<std::string> unavoidable = gaps(f);
     Candidates c;
+    c.splats_direct = splats_direct(scene, f);
     const Families own{f.emitter_hit, f.next_event, false, false};
     if (gaps(own) == unavoidable) c.add(own, 0);
     if (f.light_tracing) {
@@ -116,6 +122,7 @@ double cost_of(const Plan& p, const PilotSums& n) {
     for (int edges = 1; strategy_count(edges) < n.shadow_rays.size(); ++edges)
         for (int s = 1; s <= edges + 1; ++s) {
             const Strategy k{s, edges + 1 - s};
+            if (k == Strategy{1, 2} && !p.splats_direct) continue;
             rays[size_t(family_of(k))] += double(n.shadow_rays[strategy_index(k)]);
         }
     const double camera = price.sample * pilot_samples +
@@ -160,9 +167,9 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
     const Estimator e = pilot_estimator(scene, camera, settings);
     const Candidates candidates = find_candidates(scene, e);
     const Plan full{e.families, e.families.needs_light_subpaths() ? 4 : 0};
-    PlanDecision decision{full, {}};
+    PlanDecision decision{candidates.count > 0 ? candidates.plans[0] : full, {}};
     if (candidates.count < 2) {
-        decision.forecasts.push_back({full});
+        decision.forecasts.push_back({decision.plan});
         return decision;
     }
     Estimator unconnected = e;
@@ -200,8 +207,9 @@ std::string describe(const Plan& plan) {
     if (!f.light_tracing) what = "connections, no light tracing";
     constexpr const char* numbers[] = {"no", "a quarter of a", "half a", "", "one", "", "", "",
                                        "two"};
-    return fmt::format("{}, {} light subpath{} per pixel", what, numbers[plan.light_quarters],
-                       plan.light_quarters > 4 ? "s" : "");
+    return fmt::format("{}, {} light subpath{} per pixel{}", what, numbers[plan.light_quarters],
+                       plan.light_quarters > 4 ? "s" : "",
+                       plan.splats_direct ? "" : ", direct light by next event");
 }
 
 std::string describe(const PlanDecision& decision) {

@@ -22,7 +22,10 @@ inline constexpr size_t most_candidates = 8;
 struct Candidates {
     std::array<Plan, most_candidates> plans;
     int count = 0;
-    void add(const Families& f, int quarters) { plans[count++] = {f, quarters}; }
+    bool splats_direct = true;  // of the plans with light tracing
+    void add(const Families& f, int quarters) {
+        plans[count++] = {f, quarters, splats_direct || !f.light_tracing};
+    }
 };
 
 // Contributions that a camera sample has at most one or a few of, and that vary apart: by family

@@ -90,7 +90,7 @@ int roulette_start(const Families& families) {
 
 double direct_share(const Scene& scene, const Families& f) {
     if (!f.next_event || !f.light_tracing) return 1;
-    return std::max(0.1, 1 - scene.same_lamp);
+    return std::max(least_direct_share, 1 - scene.same_lamp);
 }
 
 Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
@@ -130,7 +130,7 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     e.sampler = s.sampler;
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     e.light_subpaths = planned ? light_subpaths(*s.plan, pixels) : pixels;
-    e.direct_share = direct_share(scene, e.families);
+    e.direct_share = planned && !s.plan->splats_direct ? 0 : direct_share(scene, e.families);
     return e;
 }
 

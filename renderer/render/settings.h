@@ -17,6 +17,8 @@ enum class Technique : std::uint8_t { path, light, bdpt, automatic };
 struct Plan {
     Families families;
     int light_quarters = 4;  // light subpaths for four pixels: 0, 1, 2, 4 or 8
+    // Whether light tracing makes paths of two edges too, which next event always finds.
+    bool splats_direct = true;
     bool operator==(const Plan&) const = default;
 };
 
@@ -58,7 +60,9 @@ int roulette_start(const Families& families);
 // beforehand but for shadows, and stratification does the rest; where it asks one of many, each
 // lamp's light comes by chance as it does in light tracing. For a place that one lamp lights alone,
 // picked with probability q, the second moment of next event is 1 / (1 - q) times its variance; q
-// is taken at its mean, by power. Never below a tenth: shadows and highlights are not known.
+// is taken at its mean, by power. Never below least_direct_share: shadows and highlights are not
+// known. What is left at that share lowers no error that could be measured, and `auto` spares it.
+inline constexpr double least_direct_share = 0.1;
 double direct_share(const Scene& scene, const Families& families);
 
 // Checks the settings against each other (std::invalid_argument with one line) and binds them to a

@@ -90,6 +90,9 @@ void add_plan(const PreparedScene& p, const Case& usual, std::vector<Case>& case
     more.light_quarters =
         std::max(more.light_quarters, more.families.needs_light_subpaths() ? 4 : 0);
     add("light subpaths", why, more);
+    more = chosen;
+    more.splats_direct = true;
+    add("direct light's splats", why, more);
     add("all that auto leaves out", why, Plan{full, chosen.light_quarters});
 }
 
