@@ -104,10 +104,13 @@ alignas(16) constexpr ByteTable table = make_table();
 Lanes sobol_of_reversed(std::uint32_t a, std::uint32_t b, std::uint32_t longest) {
     Group first = std::bit_cast<Group>(table[3][a >> 24]);
     Group second = std::bit_cast<Group>(table[3][b >> 24]);
-    for (int byte = 2; byte >= 0 && (longest << (8 * (3 - byte))) != 0; --byte) {
+    const auto add = [&](int byte) {
         first ^= std::bit_cast<Group>(table[byte][(a >> (8 * byte)) & 255]);
         second ^= std::bit_cast<Group>(table[byte][(b >> (8 * byte)) & 255]);
-    }
+    };
+    if (longest << 8) add(2);
+    if (longest << 16) add(1);
+    if (longest << 24) add(0);
     return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 

@@ -52,6 +52,18 @@ TEST_F(Sampler, EveryDimensionIsStratified) {
     }
 }
 
+// The first dimension is a bijection of 32 bits; strides so that every byte of an index counts.
+TEST_F(Sampler, NoPlaceIsTakenTwice) {
+    for (const std::uint64_t stride : {1u, 251u, 65521u}) {
+        std::vector<std::uint32_t> seen;
+        for (std::uint64_t i = 0; i < 65536; ++i)
+            seen.push_back(
+                sample_bits(make_sample_key(test_seed(4), i * stride, SamplerKind::sobol), 3)[0]);
+        std::sort(seen.begin(), seen.end());
+        EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end()) << stride;
+    }
+}
+
 TEST_F(Sampler, ValuesStayBelowOne) {
     for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
         float largest = 0;
