@@ -94,8 +94,8 @@ Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
     e.at(Work::sampling);
     w.key = camera_key(e, x, y, pass);
     const vec4 u = sample_4d(w.key, 0);
-    const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
     e.at(Work::shading);
+    const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
     w.ray.origin = lens_point(e.camera, {u.z, u.w});
     w.ray.direction = camera_direction(e.camera, w.ray.origin, film);
     w.previous_position = w.ray.origin;
