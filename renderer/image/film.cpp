@@ -1,8 +1,9 @@
 #include "image/film.h"
 
-#include <bit>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 namespace midway {
 namespace {
@@ -11,17 +12,23 @@ Int128 join(std::uint64_t low, std::uint64_t high) {
     return static_cast<Int128>((static_cast<UInt128>(high) << 64) | low);
 }
 
-// Adds with the carry found by the low word itself, so the pair is exact once all adders are done.
-// False where the sum wrapped around.
-bool atomic_add(std::uint64_t* word, Int128 v) {
-    const auto low = static_cast<std::uint64_t>(v);
-    auto high = static_cast<std::uint64_t>(static_cast<UInt128>(v) >> 64);
-    const std::uint64_t before = std::atomic_ref(word[0]).fetch_add(low, std::memory_order_relaxed);
-    high += before + low < before;
-    if (high == 0) return true;
-    const std::uint64_t old = std::atomic_ref(word[1]).fetch_add(high, std::memory_order_relaxed);
-    const std::uint64_t sum = old + high;
-    return ((old ^ sum) & (high ^ sum)) >> 63 == 0;
+// Waits until nobody else adds to a pixel; others wait until it is destroyed.
+class PixelLock {
+  public:
+    explicit PixelLock(std::uint8_t& busy) : busy_(busy) {
+        while (busy_.exchange(1, std::memory_order_acquire) != 0) std::this_thread::yield();
+    }
+    ~PixelLock() { busy_.store(0, std::memory_order_release); }
+    PixelLock(const PixelLock&) = delete;
+    PixelLock& operator=(const PixelLock&) = delete;
+
+  private:
+    std::atomic_ref<std::uint8_t> busy_;
+};
+
+void store(Int128 v, std::uint64_t* word) {
+    word[0] = static_cast<std::uint64_t>(v);
+    word[1] = static_cast<std::uint64_t>(static_cast<UInt128>(v) >> 64);
 }
 
 // The unit as a factor: exact, and dearer to apply by ldexp than by a product.
@@ -41,49 +48,48 @@ int film_unit_exponent(double power) {
     return exponent - bits_below;
 }
 
-Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts) {
+Int128 to_fixed_at_the_edge(float v, int unit_exponent, FixedCounts& counts) {
     const auto bits = std::bit_cast<std::uint32_t>(v);
     const int exponent = static_cast<int>((bits >> 23) & 255);
-    if (exponent == 0) return 0;  // zero; workers flush denormals
-    const std::uint32_t mantissa = (bits & 0x7fffffu) | 0x800000u;
-    const int shift = exponent - 150 - unit_exponent;
-    Int128 fixed;
-    if (shift >= 0) {
-        // Room for the contributions of one sample to be summed before they reach the film.
-        if (shift > 96) {
-            ++counts.overflow;
-            return 0;
-        }
-        fixed = static_cast<Int128>(mantissa) << shift;
-    } else if (shift < -24) {
+    if (exponent == 0) return 0;                      // zero; workers flush denormals
+    const int lost = 150 + unit_exponent - exponent;  // bits below the unit
+    if (lost <= 0) {
+        ++counts.overflow;
+        return 0;
+    }
+    if (lost > 24) {
         ++counts.inexact;
         return 0;
-    } else {
-        const std::uint32_t lost = mantissa & ((1u << -shift) - 1);
-        counts.inexact += lost != 0;
-        fixed = (mantissa + (1u << (-shift - 1))) >> -shift;
     }
+    const std::uint32_t mantissa = (bits & 0x7fffffu) | 0x800000u;
+    counts.inexact += (mantissa & ((1u << lost) - 1)) != 0;
+    const Int128 fixed = (mantissa + (1u << (lost - 1))) >> lost;
     return bits >> 31 ? -fixed : fixed;
 }
 
 double from_fixed(Int128 v, int unit_exponent) { return scaled(v, unit_factor(unit_exponent)); }
 
+bool add_to(const FilmPlace& place, const FixedRgb& value) {
+    bool fits = true;
+    const PixelLock lock(*place.busy);
+    for (int c = 0; c < 3; ++c) {
+        std::uint64_t* word = place.words + 2 * c;
+        Int128 sum = 0;
+        fits &= !__builtin_add_overflow(join(word[0], word[1]), value[c], &sum);
+        store(sum, word);
+    }
+    return fits;
+}
+
 Film::Film(int width, int height, int unit_exponent)
     : width_(width),
       height_(height),
       unit_exponent_(unit_exponent),
-      words_(static_cast<size_t>(width) * height * 12) {}
-
-bool Film::add(int half, int x, int y, const FixedRgb& value) {
-    std::uint64_t* word = &words_[place(half, x, y)];
-    bool fits = true;
-    for (int c = 0; c < 3; ++c)
-        if (value[c] != 0) fits &= atomic_add(word + 2 * c, value[c]);
-    return fits;
-}
+      words_(static_cast<size_t>(width) * height * 12),
+      busy_(static_cast<size_t>(width) * height) {}
 
 FixedRgb Film::sum(int half, int x, int y) const {
-    const std::uint64_t* word = &words_[place(half, x, y)];
+    const std::uint64_t* word = &words_[this->word(half, x, y)];
     return {join(word[0], word[1]), join(word[2], word[3]), join(word[4], word[5])};
 }
 
@@ -98,8 +104,7 @@ void Film::merge(const Film& other) {
                                    join(other.words_[i], other.words_[i + 1]), &sum))
             throw std::runtime_error(
                 "sum of two films leaves its range (merge); the films are damaged");
-        words_[i] = static_cast<std::uint64_t>(sum);
-        words_[i + 1] = static_cast<std::uint64_t>(static_cast<UInt128>(sum) >> 64);
+        store(sum, &words_[i]);
     }
 }
 

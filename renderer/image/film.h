@@ -6,7 +6,7 @@
 #pragma once
 
 #include <array>
-#include <atomic>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -29,8 +29,21 @@ struct FixedCounts {
     std::uint64_t overflow = 0;  // did not fit and was not added
 };
 
+// Of to_fixed(): zero, what has bits below the unit, and what does not fit.
+Int128 to_fixed_at_the_edge(float v, int unit_exponent, FixedCounts& counts);
+
 // v in units of 2^unit_exponent, rounded to nearest. v is finite.
-Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts);
+inline Int128 to_fixed(float v, int unit_exponent, FixedCounts& counts) {
+    const auto bits = std::bit_cast<std::uint32_t>(v);
+    const int exponent = static_cast<int>((bits >> 23) & 255);
+    const int shift = exponent - 150 - unit_exponent;
+    // The upper end leaves room for the contributions of one sample to be summed before they reach
+    // the film.
+    if (exponent == 0 || shift < 0 || shift > 96)
+        return to_fixed_at_the_edge(v, unit_exponent, counts);
+    const Int128 fixed = static_cast<Int128>((bits & 0x7fffffu) | 0x800000u) << shift;
+    return bits >> 31 ? -fixed : fixed;
+}
 double from_fixed(Int128 v, int unit_exponent);
 
 // Memory that is zero when it is first touched, so that a large film is made at once: for vectors
@@ -58,6 +71,23 @@ struct ZeroedAllocator {
 };
 using FilmWords = std::vector<std::uint64_t, ZeroedAllocator<std::uint64_t>>;
 
+// Where one half of a pixel is kept.
+struct FilmPlace {
+    std::uint64_t* words = nullptr;
+    std::uint8_t* busy = nullptr;  // 1 while somebody adds
+};
+
+// Safe from many threads at once. False where a sum left 128 bits: the pixel is lost, and the
+// caller counts it.
+[[nodiscard]] bool add_to(const FilmPlace& place, const FixedRgb& value);
+
+// Asks the memory for what add_to() will touch: without it most of a splat's time is one miss.
+inline void prefetch(const FilmPlace& place) {
+    __builtin_prefetch(place.words, 1);
+    __builtin_prefetch(place.words + 5, 1);
+    __builtin_prefetch(place.busy, 1);
+}
+
 class Film {
   public:
     Film(int width, int height, int unit_exponent);
@@ -66,15 +96,13 @@ class Film {
     int height() const { return height_; }
     int unit_exponent() const { return unit_exponent_; }
 
-    // Safe from many threads at once. False where a sum left 128 bits: the pixel is lost, and the
-    // caller counts it.
-    [[nodiscard]] bool add(int half, int x, int y, const FixedRgb& value);
+    FilmPlace place(int half, int x, int y) {
+        return {&words_[word(half, x, y)], &busy_[pixel(x, y)]};
+    }
 
-    // Asks the memory for what add() will touch: without it most of a splat's time is one miss.
-    void prefetch(int half, int x, int y) const {
-        const std::uint64_t* word = &words_[place(half, x, y)];
-        __builtin_prefetch(word, 1);
-        __builtin_prefetch(word + 5, 1);
+    // As add_to().
+    [[nodiscard]] bool add(int half, int x, int y, const FixedRgb& value) {
+        return add_to(place(half, x, y), value);
     }
 
     // The sums of one half of a pixel; call when nobody adds.
@@ -88,11 +116,12 @@ class Film {
     FilmWords& words() { return words_; }
 
   private:
-    size_t place(int half, int x, int y) const {
-        return ((static_cast<size_t>(y) * width_ + x) * 2 + half) * 6;
-    }
+    size_t pixel(int x, int y) const { return static_cast<size_t>(y) * width_ + x; }
+    size_t word(int half, int x, int y) const { return (pixel(x, y) * 2 + half) * 6; }
     int width_, height_, unit_exponent_;
     FilmWords words_;
+    // For each pixel: one atomic operation guards its six words.
+    std::vector<std::uint8_t, ZeroedAllocator<std::uint8_t>> busy_;
 };
 
 // How many passes each half holds: passes [0, n) put (n + 1) / 2 into A.

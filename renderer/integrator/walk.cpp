@@ -5,18 +5,19 @@
 namespace midway {
 namespace {
 
-enum Stream : std::uint64_t { camera_stream = 1, light_stream = 2, coin_stream = 3 };
+enum Stream : std::uint64_t { camera_stream = 1, light_stream = 2 };
 
 // Even and odd passes are two independent scrambles.
 SampleKey make_key(const Estimator& e, Stream stream, std::uint64_t pass, std::uint64_t place,
                    std::uint64_t index) {
-    const std::uint64_t half = hash_combine(e.seed, 2 * stream + (pass & 1));
-    return {hash_combine(half, place), index, e.sampler};
+    const std::uint64_t half = mix64(e.seed + (2 * stream + (pass & 1)) * 0x9e3779b97f4a7c15ull);
+    return make_sample_key(mix64(half + place), index, e.sampler);
 }
 
+// Of a walk's edges, all different; who tosses it hashes it.
 std::uint64_t coin(const Walk& w) {
-    return hash_combine(hash_combine(w.key.key, w.key.index),
-                        coin_stream + 4 * std::uint64_t(w.index));
+    return w.key.key + w.key.reversed * 0xbf58476d1ce4e5b9ull +
+           std::uint64_t(w.index) * 0x94d049bb133111ebull;
 }
 
 // Is the strategy that the previous vertex's vcm stands for feasible? On the camera side vertex i
@@ -80,6 +81,7 @@ SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pas
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass) {
     // In the order of the pixels, neighbours and successive passes would meet subpaths from the
     // same strata; a permutation of its own for every pass leaves no pattern.
+    e.at(Work::sampling);
     const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
     return permute_index(pixel, static_cast<std::uint64_t>(e.crop.area()),
                          hash_combine(e.seed, 0x70616972 + pass));
@@ -89,11 +91,11 @@ Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
     Walk w;
     w.transport = Transport::radiance;
     w.roulette_start = e.roulette_start;
-    w.key = camera_key(e, x, y, pass);
     e.at(Work::sampling);
+    w.key = camera_key(e, x, y, pass);
     const vec4 u = sample_4d(w.key, 0);
-    const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
     e.at(Work::shading);
+    const vec2 film = vec2(x + 0.5f, y + 0.5f) + sample_filter(e.filter, {u.x, u.y});
     w.ray.origin = lens_point(e.camera, {u.z, u.w});
     w.ray.direction = camera_direction(e.camera, w.ray.origin, film);
     w.previous_position = w.ray.origin;
@@ -104,10 +106,9 @@ Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
 std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
                                      std::uint64_t pass) {
     std::optional<Walk> walk;
-    const SampleKey key = light_key(e, subpath, pass);
     e.at(Work::sampling);
-    const vec4 u = sample_4d(key, 0);
-    const vec4 more = sample_4d(key, 1);
+    const SampleKey key = light_key(e, subpath, pass);
+    const auto [u, more] = sample_4d_pair(key, 0);
     const double pick = fine_number(more.x, more.y);
     e.at(Work::shading);
     const std::optional<EmissionSample> s =

@@ -1,6 +1,7 @@
 // Integer hashes that keys of the random streams go through.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -38,21 +39,20 @@ constexpr float to_unit_float(std::uint32_t bits) {
     return static_cast<float>(bits >> 8) * 0x1p-24f;
 }
 
-// A permutation of [0, n) chosen by `key`: four Feistel rounds on the next even power of two,
-// walked until the value falls into range (Black & Rogaway 2002, cycle walking).
+// A permutation of [0, n) chosen by `key`, a hash: steps that can be undone on the next power of
+// two, walked until the value falls into range (Black & Rogaway 2002, cycle walking; such steps:
+// Kensler 2013, "Correlated Multi-Jittered Sampling").
 constexpr std::uint64_t permute_index(std::uint64_t index, std::uint64_t n, std::uint64_t key) {
-    int half_bits = 1;
-    while ((std::uint64_t{1} << (2 * half_bits)) < n) ++half_bits;
-    const std::uint64_t mask = (std::uint64_t{1} << half_bits) - 1;
+    const int bits = std::bit_width(n - 1), half = bits / 2 + 1;
+    const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
     do {
-        std::uint64_t left = index >> half_bits, right = index & mask;
+        std::uint64_t k = key;
         for (int round = 0; round < 4; ++round) {
-            const std::uint64_t next =
-                left ^ (mix64(right + key + (std::uint64_t(round) << 56)) & mask);
-            left = right;
-            right = next;
+            index = (index * ((k >> 32) | 1) + k) & mask;
+            index ^= index >> half;
+            k = k * 0xd1342543de82ef95ull + 0x9e3779b97f4a7c15ull;
         }
-        index = (left << half_bits) | right;
+        index = (index * ((k >> 32) | 1) + k) & mask;
     } while (index >= n);
     return index;
 }

@@ -1,15 +1,19 @@
 #include "math/sampler.h"
 
+#include <immintrin.h>
+
 #include <bit>
 
 namespace midway {
 namespace {
 
-// Four dimensions at once.
-typedef std::uint32_t Lanes __attribute__((vector_size(16)));
-typedef std::int32_t SignedLanes __attribute__((vector_size(16)));
-typedef float FloatLanes __attribute__((vector_size(16)));
-typedef std::uint8_t Bytes __attribute__((vector_size(16)));
+// Both groups of a pair at once.
+typedef std::uint32_t Lanes __attribute__((vector_size(32)));
+typedef std::int32_t SignedLanes __attribute__((vector_size(32)));
+typedef float FloatLanes __attribute__((vector_size(32)));
+typedef std::uint64_t WideLanes __attribute__((vector_size(32)));
+typedef std::uint8_t Bytes __attribute__((vector_size(32)));
+typedef std::uint32_t Group __attribute__((vector_size(16)));
 
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     x = (x << 16) | (x >> 16);
@@ -19,20 +23,35 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
     return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
+// table[i] in every byte, i below 16.
+Bytes look_up(const Bytes& table, const Bytes& i) {
+#ifdef __AVX2__
+    // Within each half of 16 bytes.
+    return std::bit_cast<Bytes>(
+        _mm256_shuffle_epi8(std::bit_cast<__m256i>(table), std::bit_cast<__m256i>(i)));
+#else
+    Bytes found{};
+    for (int k = 0; k < 32; ++k) found[k] = table[i[k]];
+    return found;
+#endif
+}
+
 // The same in every lane: the order of the bytes by one shuffle, that of the bits in a byte by two
 // look-ups of four bits.
-Lanes reverse_bits(Lanes x) {
-    constexpr Bytes order = {3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12};
-    constexpr Bytes nibble = {0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15};
+Lanes reverse_bits(const Lanes& x) {
+    constexpr Bytes order = {3,  2,  1,  0,  7,  6,  5,  4,  11, 10, 9,  8,  15, 14, 13, 12,
+                             19, 18, 17, 16, 23, 22, 21, 20, 27, 26, 25, 24, 31, 30, 29, 28};
+    constexpr Bytes upper = {0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15,
+                             0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15};
+    constexpr Bytes lower = upper << 4;
     const Bytes b = __builtin_shuffle(std::bit_cast<Bytes>(x), order);
-    const Bytes low = __builtin_shuffle(nibble, b & 15), high = __builtin_shuffle(nibble, b >> 4);
-    return std::bit_cast<Lanes>((low << 4) | high);
+    return std::bit_cast<Lanes>(look_up(lower, b & 15) | look_up(upper, b >> 4));
 }
 
 // Hash in which bit i depends on bits 0..i alone: a nested uniform scramble of the reversed word
 // (Laine & Karras 2011; constants of Burley 2020).
 template <class T>
-constexpr T scramble_reversed(T x, T seed) {
+constexpr T scramble_reversed(T x, const T& seed) {
     x += seed;
     x ^= x * 0x6c50b47cu;
     x ^= x * 0xb82f1e52u;
@@ -80,59 +99,81 @@ constexpr ByteTable make_table() {
 
 alignas(16) constexpr ByteTable table = make_table();
 
-// Sobol values of an index, both reversed.
-Lanes sobol_of_reversed(std::uint32_t r) {
-    const auto of_byte = [r](int byte) {
-        return std::bit_cast<Lanes>(table[byte][(r >> (8 * byte)) & 255]);
+// Sobol values of two indices, all reversed, side by side. Both indices have no more bits than
+// `longest`: most sequences are short, and their upper bytes need not be looked up.
+Lanes sobol_of_reversed(std::uint32_t a, std::uint32_t b, std::uint32_t longest) {
+    Group first = std::bit_cast<Group>(table[3][a >> 24]);
+    Group second = std::bit_cast<Group>(table[3][b >> 24]);
+    const auto add = [&](int byte) {
+        first ^= std::bit_cast<Group>(table[byte][(a >> (8 * byte)) & 255]);
+        second ^= std::bit_cast<Group>(table[byte][(b >> (8 * byte)) & 255]);
     };
-    return of_byte(0) ^ of_byte(1) ^ of_byte(2) ^ of_byte(3);
+    if (longest << 8) add(2);
+    if (longest << 16) add(1);
+    if (longest << 24) add(0);
+    return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-Lanes owen_sobol_lanes(std::uint32_t index, std::uint64_t seed) {
-    const std::uint64_t a = mix64(seed), b = mix64(a), c = mix64(b);
-    // Shuffling the index decorrelates the groups of one sample.
-    const std::uint32_t shuffled =
-        scramble_reversed(reverse_bits(index), static_cast<std::uint32_t>(a));
-    const Lanes scrambles = {static_cast<std::uint32_t>(a >> 32), static_cast<std::uint32_t>(b),
-                             static_cast<std::uint32_t>(b >> 32), static_cast<std::uint32_t>(c)};
-    return reverse_bits(scramble_reversed(sobol_of_reversed(shuffled), scrambles));
+// Shuffles an index (reversed) among those of the same length. Numbers that differ by a shift of
+// all digits are as good, since the values are scrambled after: so the leading ones are free to
+// stay, and the index keeps the length that it has.
+std::uint32_t shuffle_reversed(std::uint32_t reversed, std::uint32_t seed) {
+    const std::uint32_t leading = reversed & -reversed;
+    const std::uint32_t from_leading = reversed ^ (reversed - 1);
+    return (scramble_reversed(reversed, seed) & ~from_leading) | leading;
 }
 
-Lanes sample_lanes(const SampleKey& sample, std::uint32_t group) {
+// A seed for each dimension of a pair.
+Lanes lane_seeds(std::uint64_t hash) {
+    constexpr Lanes factors = {0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du, 0x27d4eb2fu,
+                               0x165667b1u, 0x7feb352du, 0x846ca68bu, 0xd6e8feb9u};
+    const Lanes x = static_cast<std::uint32_t>(hash) * factors;
+    return (x ^ (x >> 16)) + static_cast<std::uint32_t>(hash >> 32);
+}
+
+// The groups 2 pair and 2 pair + 1.
+Lanes sample_lanes(const SampleKey& sample, std::uint32_t pair) {
+    constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
     if (sample.kind == SamplerKind::independent) {
-        const std::uint64_t a = hash_combine(hash_combine(sample.key, group), mix64(sample.index));
-        const std::uint64_t b = mix64(a);
-        return Lanes{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(a >> 32),
-                     static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(b >> 32)};
+        const std::uint64_t first = sample.key + 4 * pair * golden;
+        return std::bit_cast<Lanes>(WideLanes{mix64(first), mix64(first + golden),
+                                              mix64(first + 2 * golden),
+                                              mix64(first + 3 * golden)});
     }
-    // A sequence is 2^32 points long; what lies beyond goes on with a new scramble.
-    const std::uint64_t seed = hash_combine(sample.key + (sample.index >> 32), group);
-    return owen_sobol_lanes(static_cast<std::uint32_t>(sample.index), seed);
+    const std::uint64_t hash = mix64(sample.key + pair * golden);
+    // Shuffling the index decorrelates the groups of one sample.
+    const std::uint32_t r = sample.reversed;
+    const std::uint32_t a = shuffle_reversed(r, static_cast<std::uint32_t>(hash));
+    const std::uint32_t b = shuffle_reversed(r, static_cast<std::uint32_t>(hash >> 32));
+    return reverse_bits(scramble_reversed(sobol_of_reversed(a, b, r), lane_seeds(hash)));
 }
 
 // to_unit_float() in every lane: 24 bits fit the conversion from signed integers.
-vec4 to_unit_floats(Lanes x) {
+std::array<vec4, 2> to_unit_floats(const Lanes& x) {
     const auto upper = std::bit_cast<SignedLanes>(x >> 8);
-    return std::bit_cast<vec4>(__builtin_convertvector(upper, FloatLanes) * 0x1p-24f);
+    return std::bit_cast<std::array<vec4, 2>>(__builtin_convertvector(upper, FloatLanes) *
+                                              0x1p-24f);
 }
 
 }  // namespace
 
-Bits4 owen_sobol_4d(std::uint32_t index, std::uint64_t seed) {
-    return std::bit_cast<Bits4>(owen_sobol_lanes(index, seed));
+SampleKey make_sample_key(std::uint64_t key, std::uint64_t index, SamplerKind kind) {
+    if (kind == SamplerKind::independent) return {hash_combine(key, index), 0, kind};
+    // A sequence is 2^32 points long; what lies beyond goes on with a new scramble.
+    return {key + (index >> 32) * 0xd1342543de82ef95ull,
+            reverse_bits(static_cast<std::uint32_t>(index)), kind};
 }
 
 Bits4 sample_bits(const SampleKey& sample, std::uint32_t group) {
-    return std::bit_cast<Bits4>(sample_lanes(sample, group));
+    return std::bit_cast<std::array<Bits4, 2>>(sample_lanes(sample, group / 2))[group % 2];
 }
 
 vec4 sample_4d(const SampleKey& sample, std::uint32_t group) {
-    return to_unit_floats(sample_lanes(sample, group));
+    return to_unit_floats(sample_lanes(sample, group / 2))[group % 2];
 }
 
 std::array<vec4, 2> sample_4d_pair(const SampleKey& sample, std::uint32_t group) {
-    const Lanes first = sample_lanes(sample, group), second = sample_lanes(sample, group + 1);
-    return {to_unit_floats(first), to_unit_floats(second)};
+    return to_unit_floats(sample_lanes(sample, group / 2));
 }
 
 }  // namespace midway

@@ -84,7 +84,10 @@ class FilmRecord {
         x_ = x;
         y_ = y;
         pass_ = pass;
-        for (size_t i = 0; i < exponents_; ++i) pixel_[i] = {};
+        for (size_t i = 0; i < exponents_; ++i) {
+            pixel_[i] = {};
+            prefetch(place_in((*targets_.films)[i], x, y));
+        }
         if constexpr (observed)
             if (targets_.cells) buffer_.move_to(*targets_.cells, x, y, sums_.cells_lost);
     }
@@ -108,49 +111,52 @@ class FilmRecord {
         if (!usable(c)) return;
         for (size_t i = 0; i < exponents_; ++i) {
             const vec3 w = weighted(c, i);
-            const FixedRgb v = fixed(w);
-            wait((*targets_.films)[i], x, y, v);
+            FixedRgb& v = wait(place_in((*targets_.films)[i], x, y), sums_.fixed.overflow);
+            for (int k = 0; k < 3; ++k) v[k] = to_fixed(w[k], unit(), sums_.fixed);
             if constexpr (observed)
-                if (i == targets_.observed_exponent) observe(c, {w, v, x, y, false});
+                if (i == targets_.observed_exponent) observe(c, {w, FixedRgb(v), x, y, false});
         }
     }
 
     // Adds the sample's sum to its pixel.
     void end() {
-        for (size_t i = 0; i < exponents_; ++i) wait((*targets_.films)[i], x_, y_, pixel_[i]);
+        for (size_t i = 0; i < exponents_; ++i)
+            if (pixel_[i] != FixedRgb{}) add((*targets_.films)[i], x_, y_, pixel_[i]);
     }
 
   private:
-    // On its way to a film, at a pixel of the film.
+    // On its way to a film.
     struct Waiting {
-        Film* film = nullptr;
+        FilmPlace place;
         std::uint64_t* lost = nullptr;
-        int half = 0, x = 0, y = 0;
         FixedRgb value;
     };
 
-    // Splats land anywhere in the film. They wait until the memory they go to has arrived, and all
-    // that waits is added at once: atomic additions hold up the work around them.
-    void wait(Film& film, int x, int y, const FixedRgb& value) {
-        wait({&film, &sums_.fixed.overflow, half(), x - targets_.crop.x0, y - targets_.crop.y0,
-              value});
+    FilmPlace place_in(Film& film, int x, int y) const {
+        return film.place(half(), x - targets_.crop.x0, y - targets_.crop.y0);
     }
-    void wait(const Waiting& w) {
-        w.film->prefetch(w.half, w.x, w.y);
-        waiting_[waiting_count_++] = w;
+
+    // Splats land anywhere in the film. They wait until the memory they go to has arrived. What is
+    // returned takes the value: written where it stays, since the processor is slow to copy what it
+    // has just written in other pieces.
+    FixedRgb& wait(const FilmPlace& place, std::uint64_t& lost) {
         if (waiting_count_ == waiting_.size()) add_waiting();
+        prefetch(place);
+        Waiting& w = waiting_[waiting_count_++];
+        w.place = place;
+        w.lost = &lost;
+        return w.value;
     }
     void add_waiting() {
         for (size_t i = 0; i < waiting_count_; ++i) {
             const Waiting& w = waiting_[i];
-            if (!w.film->add(w.half, w.x, w.y, w.value)) ++*w.lost;
+            if (!add_to(w.place, w.value)) ++*w.lost;
         }
         waiting_count_ = 0;
     }
 
     void add(Film& film, int x, int y, const FixedRgb& value) {
-        if (!film.add(half(), x - targets_.crop.x0, y - targets_.crop.y0, value))
-            ++sums_.fixed.overflow;
+        if (!add_to(place_in(film, x, y), value)) ++sums_.fixed.overflow;
     }
 
     int half() const { return static_cast<int>(pass_ & 1); }
@@ -174,7 +180,7 @@ class FilmRecord {
     // What the film got, and where.
     struct Added {
         const vec3& weighted;
-        const FixedRgb& value;  // the same
+        const FixedRgb& value;  // the same; not a place in the list of what waits
         int x, y;
         bool own;  // the sample's own pixel
     };
@@ -210,12 +216,12 @@ class FilmRecord {
             buffer_.add(index, a.value, bare, sums_.cells_lost);
         } else {
             const int bx = px / cells.box, by = py / cells.box;
-            wait({&cell.thumbnail, &sums_.cells_lost, 0, bx, by, a.value});
-            wait({&cell.thumbnail, &sums_.cells_lost, 1, bx, by, bare});
+            wait(cell.thumbnail.place(0, bx, by), sums_.cells_lost) = a.value;
+            wait(cell.thumbnail.place(1, bx, by), sums_.cells_lost) = bare;
         }
         if (!cell.full) return;
-        wait({cell.full.get(), &sums_.cells_lost, 0, px, py, a.value});
-        wait({cell.full.get(), &sums_.cells_lost, 1, px, py, bare});
+        wait(cell.full->place(0, px, py), sums_.cells_lost) = a.value;
+        wait(cell.full->place(1, px, py), sums_.cells_lost) = bare;
     }
 
     const FilmTargets& targets_;

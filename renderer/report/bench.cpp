@@ -69,15 +69,20 @@ double replay_seconds(const Bench& b, const std::vector<RayLog>& logs) {
     });
 }
 
+// Each in a line of the cache of its own: what a worker is at would cost all others time.
+struct alignas(64) Watched {
+    std::atomic<Work> work{Work::other};
+};
+
 // How often each kind of work was met by looking at every thread now and then.
 std::array<double, work_kinds> watch_work(const Bench& b) {
-    std::vector<std::atomic<Work>> at(static_cast<size_t>(b.threads));
+    std::vector<Watched> at(static_cast<size_t>(b.threads));
     std::atomic<bool> over{false};
     std::atomic<int> started{0};
     std::vector<std::jthread> workers;
-    for (std::atomic<Work>& now : at)
+    for (Watched& now : at)
         workers.emplace_back([&] {
-            const auto r = b.renderer(1, &now);
+            const auto r = b.renderer(1, &now.work);
             r->render_passes(1);
             ++started;
             while (!over) r->render_passes(1);
@@ -89,7 +94,7 @@ std::array<double, work_kinds> watch_work(const Bench& b) {
     while (Clock::now() < end) {
         // Not in step with anything that a worker repeats.
         std::this_thread::sleep_for(std::chrono::microseconds(311));
-        for (const std::atomic<Work>& now : at) ++counts[static_cast<size_t>(now.load())];
+        for (const Watched& now : at) ++counts[static_cast<size_t>(now.work.load())];
         all += double(at.size());
     }
     over = true;

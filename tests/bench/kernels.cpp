@@ -16,20 +16,17 @@ namespace midway {
 namespace {
 
 void draw_one_group(benchmark::State& state) {
-    SampleKey key{7, 3};
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(sample_4d(key, 4));
-        ++key.index;
-    }
+    std::uint64_t i = 3;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(sample_4d(make_sample_key(7, i++ & 63, SamplerKind::sobol), 4));
 }
 BENCHMARK(draw_one_group);
 
 void draw_a_vertex(benchmark::State& state) {
-    SampleKey key{7, 3};
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(sample_4d_pair(key, 4));
-        ++key.index;
-    }
+    std::uint64_t i = 3;
+    for (auto _ : state)
+        benchmark::DoNotOptimize(
+            sample_4d_pair(make_sample_key(7, i++ & 63, SamplerKind::sobol), 4));
 }
 BENCHMARK(draw_a_vertex);
 
@@ -59,7 +56,7 @@ BENCHMARK_CAPTURE(evaluate, glass, bsdf_of(0, 1, 1));
 void scatter_at(benchmark::State& state, const Bsdf& b) {
     std::uint64_t i = 0;
     for (auto _ : state) {
-        const vec4 u = sample_4d({1, i++}, 2);
+        const vec4 u = sample_4d(make_sample_key(1, i++, SamplerKind::sobol), 2);
         benchmark::DoNotOptimize(sample_bsdf(b, up_left, vec3(u), Transport::radiance));
     }
 }
@@ -91,7 +88,7 @@ void pick_a_lamp(benchmark::State& state) {
     tree.build(lamps, std::vector<double>(lamps.size(), 1));
     std::uint64_t i = 0;
     for (auto _ : state) {
-        const vec4 v = sample_4d({1, i++}, 2);
+        const vec4 v = sample_4d(make_sample_key(1, i++, SamplerKind::sobol), 2);
         double p = 0;
         benchmark::DoNotOptimize(tree.sample(vec3(v) - 0.5f, v.w, p));
     }

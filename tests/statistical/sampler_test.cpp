@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <vector>
 
@@ -28,8 +29,9 @@ TEST_F(Sampler, FirstTwoDimensionsAreANet) {
                     for (int a = 0; a <= m; ++a) {
                         std::vector<int> seen(n);
                         for (std::uint64_t i = 0; i < n; ++i) {
-                            const Bits4 b =
-                                sample_bits({test_seed(key), first + i, SamplerKind::sobol}, group);
+                            const Bits4 b = sample_bits(
+                                make_sample_key(test_seed(key), first + i, SamplerKind::sobol),
+                                group);
                             const std::uint64_t x = std::uint64_t(b[0]) >> (32 - a);
                             const std::uint64_t y = std::uint64_t(b[1]) >> (32 - (m - a));
                             ++seen[(x << (m - a)) | y];
@@ -45,8 +47,20 @@ TEST_F(Sampler, EveryDimensionIsStratified) {
     for (int d = 0; d < 4; ++d) {
         std::vector<int> seen(1024);
         for (std::uint64_t i = 0; i < 1024; ++i)
-            ++seen[sample_bits({test_seed(3), i, SamplerKind::sobol}, 2)[d] >> 22];
+            ++seen[sample_bits(make_sample_key(test_seed(3), i, SamplerKind::sobol), 2)[d] >> 22];
         EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 1024) << d;
+    }
+}
+
+// The first dimension is a bijection of 32 bits; strides so that every byte of an index counts.
+TEST_F(Sampler, NoPlaceIsTakenTwice) {
+    for (const std::uint64_t stride : {1u, 251u, 65521u}) {
+        std::vector<std::uint32_t> seen;
+        for (std::uint64_t i = 0; i < 65536; ++i)
+            seen.push_back(
+                sample_bits(make_sample_key(test_seed(4), i * stride, SamplerKind::sobol), 3)[0]);
+        std::sort(seen.begin(), seen.end());
+        EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end()) << stride;
     }
 }
 
@@ -54,7 +68,7 @@ TEST_F(Sampler, ValuesStayBelowOne) {
     for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
         float largest = 0;
         for (std::uint64_t i = 0; i < 200'000; ++i) {
-            const vec4 u = sample_4d({test_seed(9), i, kind}, 1);
+            const vec4 u = sample_4d(make_sample_key(test_seed(9), i, kind), 1);
             for (int d = 0; d < 4; ++d) {
                 ASSERT_GE(u[d], 0);
                 ASSERT_LE(u[d], 1 - 0x1p-24f);
@@ -70,19 +84,22 @@ TEST_F(Sampler, ValuesStayBelowOne) {
 // the square evenly.
 TEST_F(Sampler, KeysGroupsAndFarIndicesAreIndependent) {
     constexpr int n = 65536, side = 16;
-    const double level = sidak_level(alarm, 8);
+    const double level = sidak_level(alarm, 10);
     for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent})
-        for (int way = 0; way < 4; ++way) {
+        for (int way = 0; way < 5; ++way) {
             std::vector<double> cells(side * side);
             for (int i = 0; i < n; ++i) {
                 const std::uint64_t key = hash_combine(test_seed(5), std::uint64_t(i));
-                SampleKey a{key, 7, kind}, b = a;
-                std::uint32_t group_a = 1, group_b = 1;
-                if (way == 0) b.key = key + 1;
-                if (way == 1) group_b = 2;
-                if (way == 2) b.index += 1ull << 32;
-                if (way == 3) b.index += 1ull << 63;
-                const float x = sample_4d(a, group_a).x, y = sample_4d(b, group_b).x;
+                std::uint64_t other_key = key, other_index = 7;
+                std::uint32_t other_group = 1;
+                if (way == 0) other_key = key + 1;
+                if (way == 1) other_group = 2;
+                if (way == 2) other_index += 1ull << 32;
+                if (way == 3) other_index += 1ull << 63;
+                if (way == 4) other_group = 0;
+                const SampleKey a = make_sample_key(key, 7, kind);
+                const SampleKey b = make_sample_key(other_key, other_index, kind);
+                const float x = sample_4d(a, 1).x, y = sample_4d(b, other_group).x;
                 ++cells[int(x * side) * side + int(y * side)];
             }
             const std::vector<double> expected(cells.size(), double(n) / (side * side));
@@ -90,11 +107,53 @@ TEST_F(Sampler, KeysGroupsAndFarIndicesAreIndependent) {
         }
 }
 
+// Dimensions of one sample, of the same group and of two: pairs fill the square evenly.
+TEST_F(Sampler, DimensionsOfASampleAreIndependent) {
+    constexpr int n = 16384, side = 16;
+    const double level = sidak_level(alarm, 2 * 28);
+    for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
+        std::vector<std::array<vec4, 2>> samples;
+        for (int i = 0; i < n; ++i)
+            samples.push_back(sample_4d_pair(
+                make_sample_key(hash_combine(test_seed(6), std::uint64_t(i)), 5, kind), 2));
+        for (int a = 0; a < 8; ++a)
+            for (int b = a + 1; b < 8; ++b) {
+                std::vector<double> cells(side * side);
+                for (const std::array<vec4, 2>& u : samples)
+                    ++cells[int(u[a / 4][a % 4] * side) * side + int(u[b / 4][b % 4] * side)];
+                const std::vector<double> expected(cells.size(), double(n) / (side * side));
+                EXPECT_GT(chi_square_test(cells, expected).p_value, level) << a << ' ' << b;
+            }
+    }
+}
+
+// Without a shuffle of the indices, the halves that two groups' numbers lie in would agree in all
+// samples of a key or in none: the variance of how many do would be 64 times that of independent
+// numbers. Numbers of successive indices lie in opposite halves, so a shuffle leaves it at 2, with
+// a standard error of 2 sqrt(2 / keys) = 0.045: beyond 2.2 or below 1.8 once in 100,000.
+TEST_F(Sampler, GroupsOfASampleAreShuffled) {
+    constexpr int samples = 64, keys = 4000;
+    for (const std::uint32_t other : {3u, 4u}) {
+        double sum = 0;
+        for (int k = 0; k < keys; ++k) {
+            int agree = 0;
+            for (int i = 0; i < samples; ++i) {
+                const std::uint64_t key = hash_combine(test_seed(7), std::uint64_t(k));
+                const SampleKey s = make_sample_key(key, std::uint64_t(i), SamplerKind::sobol);
+                agree += (sample_bits(s, 2)[0] ^ sample_bits(s, other)[0]) >> 31 ? -1 : 1;
+            }
+            sum += double(agree) * agree;
+        }
+        EXPECT_NEAR(sum / (double(samples) * keys), 2, 0.2) << other;
+    }
+}
+
 TEST_F(Sampler, FarIndicesDoNotRepeatNearOnes) {
     for (const SamplerKind kind : {SamplerKind::sobol, SamplerKind::independent}) {
         int same = 0;
         for (std::uint64_t i = 0; i < 4096; ++i)
-            same += sample_bits({1, i, kind}, 0) == sample_bits({1, i + (1ull << 32), kind}, 0);
+            same += sample_bits(make_sample_key(1, i, kind), 0) ==
+                    sample_bits(make_sample_key(1, i + (1ull << 32), kind), 0);
         EXPECT_EQ(same, 0);
     }
 }

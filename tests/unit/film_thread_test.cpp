@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <latch>
 #include <thread>
 
 #include "image/film.h"
@@ -73,6 +74,24 @@ TEST_F(FilmSums, DoNotDependOnTheThreads) {
         }
         EXPECT_EQ(film.words(), reference.words());
     }
+}
+
+TEST_F(FilmSums, LoseNothingWhereManyAddAtOnce) {
+    constexpr int threads = 4, times = 1'000'000;
+    Film film(1, 1, -90);
+    const Int128 value = (Int128(3) << 63) + 1;  // the low word carries all the time
+    {
+        std::latch all(threads);
+        std::vector<std::jthread> workers;
+        for (int t = 0; t < threads; ++t)
+            workers.emplace_back([&] {
+                all.arrive_and_wait();
+                for (int i = 0; i < times; ++i)
+                    if (!film.add(0, 0, 0, {value, -value, 1})) return;
+            });
+    }
+    const Int128 n = threads * times;
+    EXPECT_EQ(film.sum(0, 0, 0), (FixedRgb{n * value, -n * value, n}));
 }
 
 TEST_F(FilmSums, MergedAreThoseStraightThrough) {
