@@ -97,24 +97,26 @@ class FilmRecord {
     void contribution(const Contribution& c) {
         if (!usable(c)) return;
         for (size_t i = 0; i < exponents_; ++i) {
-            const vec3 w = weighted(c, i);
-            const FixedRgb v = fixed(w);
+            const RecordedValue w = weighted(c, i);
+            FixedRgb v;
+            for (int k = 0; k < 3; ++k) v[k] = recorded_fixed(c, w, k, unit(), sums_.fixed);
             for (int k = 0; k < 3; ++k)
                 if (__builtin_add_overflow(pixel_[i][k], v[k], &pixel_[i][k]))
                     ++sums_.fixed.overflow;
             if constexpr (observed)
-                if (i == targets_.observed_exponent) observe(c, {w, v, x_, y_, true});
+                if (i == targets_.observed_exponent) observe(c, {w.value, v, x_, y_, true});
         }
     }
 
     void splat(int x, int y, const Contribution& c) {
         if (!usable(c)) return;
         for (size_t i = 0; i < exponents_; ++i) {
-            const vec3 w = weighted(c, i);
+            const RecordedValue w = weighted(c, i);
             FixedRgb& v = wait(place_in((*targets_.films)[i], x, y), sums_.fixed.overflow);
-            for (int k = 0; k < 3; ++k) v[k] = to_fixed(w[k], unit(), sums_.fixed);
+            for (int k = 0; k < 3; ++k) v[k] = recorded_fixed(c, w, k, unit(), sums_.fixed);
             if constexpr (observed)
-                if (i == targets_.observed_exponent) observe(c, {w, FixedRgb(v), x, y, false});
+                if (i == targets_.observed_exponent)
+                    observe(c, {w.value, FixedRgb(v), x, y, false});
         }
     }
 
@@ -167,10 +169,10 @@ class FilmRecord {
         return usable;
     }
 
-    vec3 weighted(const Contribution& c, size_t exponent) {
+    RecordedValue weighted(const Contribution& c, size_t exponent) {
         const RecordedValue v = recorded_value(targets_.recording, c, exponent);
         sums_.clamped += v.clamped;
-        return v.value;
+        return v;
     }
 
     int unit() const { return targets_.films->front().unit_exponent(); }

@@ -31,17 +31,29 @@ inline bool is_usable(const Contribution& c, size_t exponents) {
 
 struct RecordedValue {
     vec3 value{0};
+    double weight = 1;  // that it was multiplied by
     bool clamped = false;
 };
 inline RecordedValue recorded_value(const Recording& r, const Contribution& c, size_t exponent) {
     RecordedValue v;
-    v.value = r.unweighted ? c.value : c.value * static_cast<float>(c.weights[exponent]);
+    if (!r.unweighted) v.weight = c.weights[exponent];
+    v.value = c.value * static_cast<float>(v.weight);
     const float largest = max_component(v.value);
     if (largest > r.clamp) {
         v.value *= r.clamp / largest;
         v.clamped = true;
     }
     return v;
+}
+
+// A component of a recorded value for the film. Large exponents make weights so small that products
+// in dim scenes leave float's normal range, where workers flush: the same product is formed higher
+// up, so that an image does not depend on the strength of its lights in more than a factor.
+inline Int128 recorded_fixed(const Contribution& c, const RecordedValue& v, int k,
+                             int unit_exponent, FixedCounts& counts) {
+    if (v.value[k] >= 0x1p-100f || v.clamped) return to_fixed(v.value[k], unit_exponent, counts);
+    const float lifted = c.value[k] * static_cast<float>(v.weight * 0x1p64);
+    return to_fixed(lifted, unit_exponent + 64, counts);
 }
 
 inline FixedRgb to_fixed_rgb(const vec3& v, int unit_exponent, FixedCounts& counts) {

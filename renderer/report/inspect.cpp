@@ -243,7 +243,8 @@ InspectedPath inspect_path(const Inspection& in, const DrawnPath& p, int unit_ex
         const RecordedValue v = recorded_value(in.recording, p.contribution, i);
         FixedCounts ignored;
         path.recorded[i] = v.value;
-        path.fixed[i] = to_fixed_rgb(v.value, unit_exponent, ignored);
+        for (int k = 0; k < 3; ++k)
+            path.fixed[i][k] = recorded_fixed(p.contribution, v, k, unit_exponent, ignored);
         if (i == 0) path.clamped = v.clamped;
     }
     path.strategies = p.edges() == 1 ? direct_strategy(in, p) : all_strategies(in, p);

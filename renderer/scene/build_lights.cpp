@@ -91,6 +91,19 @@ void add_area_lights(Scene& s) {
     }
 }
 
+// Of the area lights, which come first.
+LampTriangles make_lamps(const Scene& s, const Scene* previous) {
+    if (previous && previous->geometry == s.geometry && previous->first_light == s.first_light)
+        return previous->lamps;
+    std::vector<LampTriangle> lamps;
+    lamps.reserve(s.lights.size());
+    for (const Light& l : s.lights) {
+        const Object& o = s.geometry->objects[l.object];
+        lamps.push_back({flat_triangle(o, l.triangle), o.material});
+    }
+    return std::make_shared<const std::vector<LampTriangle>>(std::move(lamps));
+}
+
 Light make_punctual(const PunctualLight& d, const Scene& s, float lamp_strength) {
     const Normalisation& n = s.geometry->normalisation;
     Light l;
@@ -222,6 +235,7 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
     s.lights.reserve(count_lights(s, d));
     find_emission_means(s, previous);
     add_area_lights(s);
+    s.lamps = make_lamps(s, previous);
     for (const PunctualLight& l : d.lights)
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);

@@ -15,25 +15,35 @@ T interpolate(const std::vector<T>& values, const uvec3& t, float b0, float b1, 
     return values[t.x] * b0 + values[t.y] * b1 + values[t.z] * b2;
 }
 
+inline FlatTriangle flatten(const Object& o, int triangle) {
+    const uvec3& t = o.triangles[triangle];
+    FlatTriangle f{o.positions[t.x], o.positions[t.y], o.positions[t.z]};
+    const vec3 e1 = f.v1 - f.v0, e2 = f.v2 - f.v0;
+    f.extent = max_component(glm::max(glm::abs(e1), glm::abs(e2)));
+    f.ng = glm::normalize(glm::cross(e1, e2));
+    return f;
+}
+
+inline TrianglePoint point_on(const FlatTriangle& t, float b1, float b2) {
+    TrianglePoint p;
+    p.position = t.v0 * (1 - b1 - b2) + t.v1 * b1 + t.v2 * b2;
+    p.error = error_steps * half_ulp * (max_component(glm::abs(p.position)) + t.extent);
+    p.ng = t.ng;
+    return p;
+}
+
 }  // namespace
 
-TrianglePoint triangle_point(const Object& o, TriangleHit hit) {
-    const uvec3& t = o.triangles[hit.triangle];
-    const vec3 &v0 = o.positions[t.x], &v1 = o.positions[t.y], &v2 = o.positions[t.z];
-    const vec3 e1 = v1 - v0, e2 = v2 - v0;
-    const vec3 extent = glm::max(glm::abs(e1), glm::abs(e2));
-    TrianglePoint p;
-    p.position = v0 * (1 - hit.b1 - hit.b2) + v1 * hit.b1 + v2 * hit.b2;
-    p.error =
-        error_steps * half_ulp * (max_component(glm::abs(p.position)) + max_component(extent));
-    p.ng = glm::normalize(glm::cross(e1, e2));
-    return p;
+FlatTriangle flat_triangle(const Object& o, int triangle) { return flatten(o, triangle); }
+
+TrianglePoint triangle_point(const FlatTriangle& t, float b1, float b2) {
+    return point_on(t, b1, b2);
 }
 
 SurfacePoint surface_point(const Object& o, TriangleHit hit) {
     const uvec3& t = o.triangles[hit.triangle];
     const float b1 = hit.b1, b2 = hit.b2, b0 = 1 - b1 - b2;
-    const TrianglePoint flat = triangle_point(o, hit);
+    const TrianglePoint flat = point_on(flatten(o, hit.triangle), b1, b2);
     SurfacePoint p;
     p.hit = hit;
     p.position = flat.position;

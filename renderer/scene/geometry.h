@@ -67,7 +67,13 @@ struct TrianglePoint {
     float error = 0;
     vec3 ng{0, 0, 1};
 };
-TrianglePoint triangle_point(const Object& object, TriangleHit hit);
+// What that takes, side by side.
+struct FlatTriangle {
+    vec3 v0{0}, v1{0}, v2{0}, ng{0, 0, 1};
+    float extent = 0;  // largest component of its edges from v0
+};
+FlatTriangle flat_triangle(const Object& object, int triangle);
+TrianglePoint triangle_point(const FlatTriangle& t, float b1, float b2);
 
 // The origin of a ray that leaves `position` on the side of ng that `towards` points to, far enough
 // for the ray not to meet the surface it left (error bound of the hit; no absolute epsilon).

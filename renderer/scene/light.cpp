@@ -67,18 +67,17 @@ bool is_near(const Light& l, const vec3& reference) {
     return l.area > 0.25f * length_squared(l.position - reference);
 }
 
-TriangleFrom seen_from(const Scene& s, const Light& l, const vec3& reference) {
-    const Object& o = s.geometry->objects[l.object];
-    const uvec3& t = o.triangles[l.triangle];
+TriangleFrom seen_from(const FlatTriangle& t, const vec3& reference) {
     const dvec3 r(reference);
-    return {dvec3(o.positions[t.x]) - r, dvec3(o.positions[t.y]) - r, dvec3(o.positions[t.z]) - r};
+    return {dvec3(t.v0) - r, dvec3(t.v1) - r, dvec3(t.v2) - r};
 }
 
 // Next event's density per area of a point on a triangle that it has picked, times the area. Zero
 // where the triangle is seen edge-on.
-double next_event_over_even(const Scene& s, const Light& l, const LightEdge& k) {
+double next_event_over_even(const Scene& s, int light, const LightEdge& k) {
+    const Light& l = s.lights[light];
     if (!is_near(l, k.reference)) return 1;
-    const double whole = solid_angle(seen_from(s, l, k.reference));
+    const double whole = solid_angle(seen_from((*s.lamps)[light].shape, k.reference));
     const double spread = double(l.area) * k.cos_theta;
     return whole > 0 ? spread / (double(k.distance_squared) * whole) : 0;
 }
@@ -98,24 +97,20 @@ LightPdfs sky_pdfs(const Scene& s, const vec3& direction) {
             static_cast<float>(group_probability(s, s.sky_light)) * pdf_w};
 }
 
-TriangleHit area_place(const Light& l, const vec2& u) {
-    const vec2 b = square_to_triangle(u);
-    return {l.object, l.triangle, b.x, b.y};
-}
-
 // Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
-vec3 area_emission(const Scene& s, const TriangleHit& place) {
-    const Object& o = s.geometry->objects[place.object];
-    const Material& m = s.materials[o.material];
+vec3 area_emission(const Scene& s, int light, const vec2& b) {
+    const Material& m = s.materials[(*s.lamps)[light].material];
     if (!m.emission_texture.used() && m.alpha_mode == AlphaMode::opaque) return m.emission;
-    const ShadingPoint p = surface_point(o, place).shading;
+    const Light& l = s.lights[light];
+    const ShadingPoint p =
+        surface_point(s.geometry->objects[l.object], {l.object, l.triangle, b.x, b.y}).shading;
     return material_emission(m, s.textures, p) * material_alpha(m, s.textures, p);
 }
 
 void emit_area(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
     const Light& l = s.lights[id];
-    const TriangleHit place = area_place(l, u.point);
-    const TrianglePoint p = triangle_point(s.geometry->objects[l.object], place);
+    const vec2 b = square_to_triangle(u.point);
+    const TrianglePoint p = triangle_point((*s.lamps)[id].shape, b.x, b.y);
     vec2 ud = u.direction;
     float side = 1;
     if (l.two_sided) {
@@ -129,7 +124,7 @@ void emit_area(const Scene& s, int id, const EmissionNumbers& u, EmissionSample&
     e.direction = frame_from_normal(e.normal).to_world(local);
     e.cos_theta = local.z;
     e.pdfs = area_pdfs(s, id, local.z, 0);
-    e.weight = area_emission(s, place) * (local.z / (e.pdfs.origin * e.pdfs.leave));
+    e.weight = area_emission(s, id, b) * (local.z / (e.pdfs.origin * e.pdfs.leave));
 }
 
 void emit_punctual(const Scene& s, int id, const EmissionNumbers& u, EmissionSample& e) {
@@ -165,26 +160,28 @@ void emit_sky(const Scene& s, const EmissionNumbers& u, EmissionSample& e) {
     e.weight = sky_radiance(*s.sky, sample.direction) / (e.pdfs.origin * e.pdfs.leave);
 }
 
-// Where next event looks at a triangle; `whole` is its solid angle, zero where it is far.
-TriangleHit next_event_place(const Scene& s, const Light& l, const vec3& reference, const vec2& u,
-                             double& whole) {
-    whole = 0;
-    if (!is_near(l, reference)) return area_place(l, u);
-    const TriangleFrom t = seen_from(s, l, reference);
-    whole = solid_angle(t);
+// Next event's point on a triangle, in barycentric weights. Nothing where the triangle is near and
+// seen edge-on.
+struct LampPoint {
+    vec2 b{0};
+    double solid_angle = 0;  // zero where the triangle is far
+};
+std::optional<LampPoint> next_event_point(const Scene& s, int light, const vec3& reference,
+                                          const vec2& u) {
+    if (!is_near(s.lights[light], reference)) return LampPoint{square_to_triangle(u)};
+    const TriangleFrom t = seen_from((*s.lamps)[light].shape, reference);
+    const double whole = solid_angle(t);
     if (!(whole > 0)) return {};
-    const vec2 b(sample_solid_angle(t, whole, u));
-    return {l.object, l.triangle, b.x, b.y};
+    return LampPoint{vec2(sample_solid_angle(t, whole, u)), whole};
 }
 
 // n.light has been picked with probability `pick`.
 void next_event_area(const Scene& s, double pick, const vec3& reference, const vec2& u,
                      NextEventSample& n) {
     const Light& l = s.lights[n.light];
-    double whole = 0;
-    const TriangleHit place = next_event_place(s, l, reference, u, whole);
-    if (place.object < 0) return;
-    const TrianglePoint p = triangle_point(s.geometry->objects[l.object], place);
+    const std::optional<LampPoint> at = next_event_point(s, n.light, reference, u);
+    if (!at) return;
+    const TrianglePoint p = triangle_point((*s.lamps)[n.light].shape, at->b.x, at->b.y);
     const vec3 d = p.position - reference;
     n.distance_squared = length_squared(d);
     if (!(n.distance_squared > 0)) return;
@@ -196,10 +193,11 @@ void next_event_area(const Scene& s, double pick, const vec3& reference, const v
     n.error = p.error;
     n.cos_theta = std::abs(c);
     const double even = 1 / double(l.area);
-    const double by_angle = n.cos_theta / (double(n.distance_squared) * whole);
-    n.pdfs = area_pdfs(s, n.light, c, pick * (whole > 0 ? by_angle : even));
+    const double by_angle = n.cos_theta / (double(n.distance_squared) * at->solid_angle);
+    n.pdfs = area_pdfs(s, n.light, c, pick * (at->solid_angle > 0 ? by_angle : even));
     if (!(n.pdfs.next_event > 0)) return;
-    n.value = area_emission(s, place) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
+    n.value =
+        area_emission(s, n.light, at->b) * (n.cos_theta / (n.distance_squared * n.pdfs.next_event));
 }
 
 void next_event_punctual(const Scene& s, double picked, const vec3& reference, NextEventSample& n) {
@@ -224,7 +222,8 @@ void next_event_punctual(const Scene& s, double picked, const vec3& reference, N
 
 // The light that next event asks, with its probability.
 double pick_light(const Scene& s, const vec3& reference, double u, int& light) {
-    const int group = find_interval(s.next_event_group, u);
+    const bool only_tree = s.infinite_lights.empty();
+    const int group = only_tree ? 0 : find_interval(s.next_event_group, u);
     const double p = s.next_event_group.probability(group);
     if (group > 0) {
         light = s.infinite_lights[static_cast<size_t>(group) - 1];
@@ -280,7 +279,7 @@ double next_event_ratio(const Scene& s, int light, const LightEdge& k) {
     const Light& l = s.lights[light];
     const double picks =
         next_event_probability(s, light, k.reference) / s.emission_pick.probability(light);
-    return l.kind == LightKind::area ? picks * next_event_over_even(s, l, k) : picks;
+    return l.kind == LightKind::area ? picks * next_event_over_even(s, light, k) : picks;
 }
 
 std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards,
@@ -296,7 +295,7 @@ std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, con
     if (is_black(radiance)) return {};
     const LightEdge edge{reference, std::abs(c), length_squared(p.position - reference)};
     const double next_event =
-        next_event_probability(s, id, reference) * next_event_over_even(s, l, edge) / l.area;
+        next_event_probability(s, id, reference) * next_event_over_even(s, id, edge) / l.area;
     return EmitterHit{radiance, area_pdfs(s, id, c, next_event)};
 }
 

@@ -30,6 +30,11 @@ Cone join(const Cone& a, const Cone& b) {
     return {glm::normalize(a.axis * std::cos(turn) + ortho * (std::sin(turn) / length)), half};
 }
 
+// In pairs: additions that do not wait for each other.
+float sum_of(const std::array<float, 8>& x) {
+    return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
 }  // namespace
 
 struct LightTreeBuilder {
@@ -229,14 +234,11 @@ float LightTree::weigh(const Node& n, const vec3& reference, Node::Lane& shares)
         const float near2 = std::max(d2, n.radius[k] * n.radius[k]);
         shares[k] = n.weight[k] * std::min(1.0f, std::max(least_cosine, bound)) / near2;
     }
-    float sum = 0;
-    for (const float s : shares) sum += s;
+    const float sum = sum_of(shares);
     if (sum > 0 && std::isfinite(sum)) return sum;
     // Extreme weights or distances: by weight alone.
     shares = n.weight;
-    sum = 0;
-    for (const float s : shares) sum += s;
-    return sum;
+    return sum_of(shares);
 }
 
 int LightTree::sample(const vec3& reference, double u, double& probability) const {
@@ -265,13 +267,18 @@ int LightTree::descend(const vec3& reference, double u, double& probability) con
     do {
         Node::Lane shares;
         const double sum = weigh(nodes_[node], reference, shares);
-        double left = u * sum;
-        int chosen = 0;
+        // All lanes are compared, since nobody foresees where a search would end.
+        const double left_of_all = u * sum;
+        std::array<double, width> begin;
+        double end = 0;
         for (int k = 0; k < width; ++k) {
-            if (shares[k] > 0) chosen = k;
-            if (left < shares[k]) break;
-            left -= shares[k];
+            begin[k] = end;
+            end += shares[k];
         }
+        int chosen = 0;
+        for (int k = 1; k < width; ++k) chosen += begin[k] <= left_of_all;
+        while (!(shares[chosen] > 0)) --chosen;  // past the end by rounding
+        const double left = left_of_all - begin[chosen];
         probability *= shares[chosen] / sum;
         u = std::clamp(left / shares[chosen], 0.0, 1 - 0x1p-53);
         node = nodes_[node].child[chosen];

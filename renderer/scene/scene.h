@@ -19,12 +19,20 @@ namespace midway {
 // leave on the average.
 using EmissionMeans = std::shared_ptr<const std::vector<vec3>>;
 
+// The triangle of an area light and what it is made of, in one line of the cache.
+struct alignas(64) LampTriangle {
+    FlatTriangle shape;
+    int material = 0;
+};
+using LampTriangles = std::shared_ptr<const std::vector<LampTriangle>>;
+
 struct Scene {
     std::shared_ptr<const Geometry> geometry;
     std::shared_ptr<const Accel> accel;
     std::vector<Material> materials;
     TextureSet textures;
-    std::vector<Light> lights;
+    std::vector<Light> lights;     // area lights first
+    LampTriangles lamps;           // of the area lights
     Distribution1D emission_pick;  // by power
     // Next event asks one of the lights at infinity or, entry 0, the tree about all others; by
     // power, with a share spread evenly over the lights.

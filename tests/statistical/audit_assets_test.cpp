@@ -27,13 +27,15 @@ TEST_P(AuditAssets, WeightsAndRaysHold) {
     RenderSettings settings;
     settings.width = settings.height = by_tier(40, 128);
     AuditOptions options;
-    options.paths = by_tier(10000, 1'300'000);
+    // Fewer would not do in the quick tier either: a bias is a mean, and among ten thousand paths
+    // of plates a single one may stand for 7e-5 of all their light.
+    options.paths = by_tier(110'000, 1'300'000);
     options.rays = by_tier(50000, 6'000'000);
     const AuditResult r = audit(*s.scene, s.camera, settings, options);
     for (const AuditCheck& c : r.checks)
         EXPECT_TRUE(c.passed) << c.name << ": " << c.measured << ", bar " << c.bar << ", at "
                               << c.fault;
-    EXPECT_GE(r.paths, static_cast<std::uint64_t>(options.paths));
+    EXPECT_GE(double(r.paths), 0.9 * double(options.paths));
     EXPECT_LE(double(r.rays.blocked.count), 3 + 1e-4 * double(r.rays.edges));
     EXPECT_LE(double(r.rays.unequal.count), 3 + 1e-3 * double(r.rays.pairs));
     const WeightAudit& w = r.weights[power_heuristic];

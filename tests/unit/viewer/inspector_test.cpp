@@ -105,11 +105,15 @@ class InspectorAtWork : public Inspector {
 
 TEST_F(InspectorAtWork, ShowsTheSampleOfTheImageThatIsShown) {
     render({.settings = true});
-    inspect("32,24,3");
-    ASSERT_TRUE(state().shown);
     const SubmittedJob& job = engine.jobs.back();
-    const InspectedSample expected =
-        inspect_sample({job.prepared->scene, job.prepared->camera, job.settings}, 32, 24, 3);
+    // Any sample that found light: not every one does.
+    InspectedSample expected;
+    std::uint64_t number = 0;
+    while (number < 100 && expected.paths.empty())
+        expected = inspect_sample({job.prepared->scene, job.prepared->camera, job.settings}, 32, 24,
+                                  ++number);
+    inspect("32,24," + std::to_string(number));
+    ASSERT_TRUE(state().shown);
     EXPECT_EQ(recorded_in(sample(), 32, 24), recorded_in(expected, 32, 24));
     EXPECT_EQ(sample().camera.size(), expected.camera.size());
     EXPECT_GE(state().picked, 0);
