@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "middle_json.h"
 #include "plan_json.h"
 #include "render_options.h"
 #include "report/bench.h"
@@ -25,10 +26,6 @@ struct BenchJob {
     BenchOptions options;
     bool json = false;
 };
-
-Json middle_json(const Middle& m) {
-    return {{"median", m.median}, {"low", m.low}, {"high", m.high}};
-}
 
 Json bench_json(const BenchResult& r) {
     Json j;

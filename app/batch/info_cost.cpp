@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "middle_json.h"
 #include "plan_json.h"
 #include "progress.h"
 
@@ -9,10 +10,6 @@ namespace midway {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json middle_json(const Middle& m) {
-    return {{"median", m.median}, {"low", m.low}, {"high", m.high}};
-}
 
 Json row_json(const LeaveOutCost& c) {
     Json j{{"what", c.what}, {"why", c.why}};

@@ -10,7 +10,7 @@ enum Stream : std::uint64_t { camera_stream = 1, light_stream = 2 };
 // Even and odd passes are two independent scrambles.
 SampleKey make_key(const Estimator& e, Stream stream, std::uint64_t pass, std::uint64_t place,
                    std::uint64_t index) {
-    const std::uint64_t half = mix64(e.seed + (2 * stream + (pass & 1)) * 0x9e3779b97f4a7c15ull);
+    const std::uint64_t half = mix64(e.seed + (2 * stream + (pass & 1)) * golden);
     return make_sample_key(mix64(half + place), index, e.sampler);
 }
 
@@ -144,6 +144,7 @@ Reached extend(const Estimator& e, Walk& w) {
     build_at(w.point, [&] { return surface_at(*e.scene, hit); });
     ++w.index;
     if (!w.point) {
+        if (w.transport == Transport::importance) return Reached::sky;  // nothing will be weighed
         e.at(Work::weights);
         if (w.index == 1)
             start_sums<F>(e, w, 1, 1);

@@ -161,8 +161,9 @@ void for_each_subpath(const Estimator& e, int x, int y, std::uint64_t pass, cons
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass);
 std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
 
-// Traces to the next vertex. Where the ray leaves the scene, walk.vertex.mis holds the sums for a
-// vertex at infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk ends.
+// Traces to the next vertex. Where a camera's ray leaves the scene, walk.vertex.mis holds the sums
+// for a vertex at infinity (g = 1, eq. 37). `nothing`: rounding left no edge to walk, and the walk
+// ends.
 enum class Reached : std::uint8_t { surface, sky, nothing };
 template <Facts F = no_facts>
 Reached extend(const Estimator& e, Walk& walk);

@@ -8,9 +8,12 @@
 
 namespace midway {
 
+// 2^64 over the golden ratio: its multiples lie far apart.
+inline constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
+
 // Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection of 64 bits.
 constexpr std::uint64_t mix64(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15ull;
+    x += golden;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
     return x ^ (x >> 31);
@@ -50,7 +53,7 @@ constexpr std::uint64_t permute_index(std::uint64_t index, std::uint64_t n, std:
         for (int round = 0; round < 4; ++round) {
             index = (index * ((k >> 32) | 1) + k) & mask;
             index ^= index >> half;
-            k = k * 0xd1342543de82ef95ull + 0x9e3779b97f4a7c15ull;
+            k = k * 0xd1342543de82ef95ull + golden;
         }
         index = (index * ((k >> 32) | 1) + k) & mask;
     } while (index >= n);

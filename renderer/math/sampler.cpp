@@ -133,7 +133,6 @@ Lanes lane_seeds(std::uint64_t hash) {
 
 // The groups 2 pair and 2 pair + 1.
 Lanes sample_lanes(const SampleKey& sample, std::uint32_t pair) {
-    constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull;
     if (sample.kind == SamplerKind::independent) {
         const std::uint64_t first = sample.key + 4 * pair * golden;
         return std::bit_cast<Lanes>(WideLanes{mix64(first), mix64(first + golden),

@@ -154,7 +154,7 @@ std::string why_left_out(const Strategy& k, const SceneFeatures& f, const Estima
     if (!f.lit) return "no light reaches a surface";
     if (!f.rough) return "all surfaces are mirrors, clear glass or black: nothing to connect";
     const bool planned = settings.technique == Technique::automatic && settings.plan;
-    if (k == Strategy{1, 2} && planned && !settings.plan->splats_direct && e.has(k))
+    if (family == Family::light_tracing && e.has(k) && !e.splats(k.edges()))
         return "there is one lamp, and next event finds its direct light with less noise";
     return planned && !settings.plan->families.has(family)
                ? "auto found that this image needs less time without it"

@@ -99,10 +99,11 @@ class FilmRecord {
         for (size_t i = 0; i < exponents_; ++i) {
             const RecordedValue w = weighted(c, i);
             FixedRgb v;
-            for (int k = 0; k < 3; ++k) v[k] = recorded_fixed(c, w, k, unit(), sums_.fixed);
-            for (int k = 0; k < 3; ++k)
+            for (int k = 0; k < 3; ++k) {
+                v[k] = recorded_fixed(c, w, k, unit(), sums_.fixed);
                 if (__builtin_add_overflow(pixel_[i][k], v[k], &pixel_[i][k]))
                     ++sums_.fixed.overflow;
+            }
             if constexpr (observed)
                 if (i == targets_.observed_exponent) observe(c, {w.value, v, x_, y_, true});
         }

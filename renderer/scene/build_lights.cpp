@@ -149,19 +149,19 @@ LightBounds bounds_of(const Scene& s, const Light& l) {
             triangle_shape(o, l.triangle).normal, l.two_sided};
 }
 
-// Whether the tree over the lights of both has the same shape; both have one geometry.
-bool same_shape(const Scene& a, const Scene& b) {
+// Whether the same lights shine at the same places, however strongly: then they reach the same
+// surfaces, and the tree over them has the same shape.
+bool same_places(const Scene& a, const Scene& b) {
     const auto same = [](const Light& x, const Light& y) {
         return x.kind == y.kind && x.object == y.object && x.triangle == y.triangle &&
                x.two_sided == y.two_sided && (x.power > 0) == (y.power > 0) &&
-               x.reaches == y.reaches && x.position == y.position && x.direction == y.direction &&
-               x.cos_outer == y.cos_outer;
+               x.position == y.position && x.direction == y.direction && x.cos_outer == y.cos_outer;
     };
     return a.geometry == b.geometry &&
            std::equal(a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(), same);
 }
 
-// `weights`: of next event, for each light.
+// `weights`: of next event, for each light. `previous`: of the same shape, or null.
 void make_light_tree(Scene& s, std::vector<double> weights, const Scene* previous) {
     std::vector<double> groups{0};
     for (size_t i = 0; i < s.lights.size(); ++i) {
@@ -173,7 +173,7 @@ void make_light_tree(Scene& s, std::vector<double> weights, const Scene* previou
         }
     }
     s.next_event_group = make_distribution(groups);
-    if (previous && same_shape(*previous, s)) {
+    if (previous) {
         s.light_tree = previous->light_tree;
         return s.light_tree.reweigh(weights);
     }
@@ -194,6 +194,9 @@ void make_light_tables(Scene& s, const Scene* previous) {
         s.total_power += l.power;
         picked += power.back();
         shining += power.back() > 0;
+        if (l.reaches) continue;
+        ++s.unreached_lights;
+        s.unreached_power += l.power;
     }
     if (!std::isfinite(s.total_power))
         throw std::runtime_error(
@@ -239,8 +242,16 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
     for (const PunctualLight& l : d.lights)
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
-    if (!options.needless.lights) find_reach(s);
-    make_light_tables(s, previous);
+    if (options.needless.lights) {
+        make_light_tables(s, nullptr);
+    } else if (previous && same_places(*previous, s)) {
+        for (size_t i = 0; i < s.lights.size(); ++i)
+            s.lights[i].reaches = previous->lights[i].reaches;
+        make_light_tables(s, previous);
+    } else {
+        find_reach(s);
+        make_light_tables(s, nullptr);
+    }
     if (s.emission_pick.total > 0) s.same_lamp = same_lamp_probability(s);
 }
 

@@ -9,8 +9,8 @@ namespace midway {
 
 // Fills in everything of a scene that shines; its geometry, materials, textures and radius are
 // there. What does not depend on how strongly lights shine is shared with options.previous: the
-// sky's table, and the means of textures over triangles. Throws std::runtime_error with one line
-// where the sum of all powers is not finite.
+// sky's table, the means of textures over triangles, and which lights reach a surface at all.
+// Throws std::runtime_error with one line where the sum of all powers is not finite.
 void build_lights(Scene& scene, const SceneDescription& description, const BuildOptions& options);
 
 }  // namespace midway

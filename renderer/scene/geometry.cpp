@@ -15,6 +15,7 @@ T interpolate(const std::vector<T>& values, const uvec3& t, float b0, float b1, 
     return values[t.x] * b0 + values[t.y] * b1 + values[t.z] * b2;
 }
 
+// Inline here, for surface_point(): every hit goes through both.
 inline FlatTriangle flatten(const Object& o, int triangle) {
     const uvec3& t = o.triangles[triangle];
     FlatTriangle f{o.positions[t.x], o.positions[t.y], o.positions[t.z]};

@@ -164,9 +164,6 @@ void find_reach(Scene& s) {
             l.reaches = search.triangle_reaches(s.geometry->objects[l.object], l);
         else if (l.kind == LightKind::spot)
             l.reaches = search.cone_reaches(l);
-        if (l.reaches) continue;
-        ++s.unreached_lights;
-        s.unreached_power += l.power;
     }
 }
 

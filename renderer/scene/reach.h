@@ -9,7 +9,7 @@
 
 namespace midway {
 
-// Sets Light::reaches and the sums in the scene; its geometry and lights are there. The search
+// Sets Light::reaches; the scene's geometry and lights are there. The search
 // ends after a number of steps, and what it has not come to counts as reaching.
 void find_reach(Scene& scene);
 

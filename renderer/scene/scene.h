@@ -65,7 +65,7 @@ struct NeedlessWork {
 // were mended or left out are appended to `warnings`.
 struct BuildOptions {
     // A scene built from the same meshes and instances: its geometry and tree are shared where the
-    // materials allow it.
+    // materials allow it. Built without needless work.
     const Scene* previous = nullptr;
     bool normalise = true;  // false: traced in the file's coordinates, for tests
     NeedlessWork needless = {};
