@@ -31,14 +31,14 @@ bool arrives(const Estimator& e, Contribution& c, RayCounts& rays, const Seen& s
     return part > 0;
 }
 
-// The strategy that moves the connecting edge one step towards the camera (or the light) is
-// feasible if its family is in use; vertices and lights that forbid it have zero sums.
+// n of the strategy that moves the connecting edge one step towards the camera (or the light);
+// where a vertex or a light forbids it, the sums are zero.
 mis::Side towards_camera(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
-    side.connects = e.weighs({k.s - 1, k.t + 1}, exponent);
+    side.n = e.count({k.s - 1, k.t + 1}, exponent);
     return side;
 }
 mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
-    side.connects = e.weighs({k.s + 1, k.t - 1}, exponent);
+    side.n = e.count({k.s + 1, k.t - 1}, exponent);
     return side;
 }
 
@@ -65,7 +65,7 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
                              hit->pdfs.next_event, true};
     e.at(Work::weights);
     fill_weights<F>(e, c, [&](const auto& h, int i) {
-        pdfs.next_event_feasible = e.weighs({k.s - 1, 1}, i);
+        pdfs.next_event_feasible = e.weighed[i].next_event;
         if (k.s == 2) return 1.0;
         if constexpr (F.path_tracer) return mis::path_tracer::emitter_hit(h, w.vertex.mis[i], pdfs);
         return mis::emitter_hit(h, w.vertex.mis[i], pdfs);
@@ -126,14 +126,15 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
     const double g_l = abs_dot(l.ng, direction) / distance2;
     Contribution& c = found.emplace();
     c.strategy = {v.index + 1, l.index + 1};
-    c.value = v.throughput * fv.f * fl.f * l.throughput * static_cast<float>(g_v * g_l * distance2);
+    c.value = v.throughput * fv.f * fl.f * l.throughput *
+              static_cast<float>(g_v * g_l * distance2 / e.connection_share);
 
     const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w};
     const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w};
     e.at(Work::weights);
     fill_weights<F>(e, c, [&](const auto& h, int i) {
         return mis::connection(h, v.mis[i], towards_camera(e, c.strategy, i, camera), l.mis[i],
-                               towards_light(e, c.strategy, i, light));
+                               towards_light(e, c.strategy, i, light), e.connection_share);
     });
     if (!arrives<F>(e, c, rays, [&] { return edge_visibility(*e.scene, v, l); })) found.reset();
     return found;

@@ -11,7 +11,8 @@
 //
 // Beyond the seed: a term counts only if its strategy is *feasible* (DESIGN, section 2), which is
 // how families, delta vertices and delta lights enter; next event and emission may have different
-// densities; x^b of a zero density is zero for every b, also 0.
+// densities; not every camera sample needs to have connections, so they have an n of their own;
+// x^b of a zero density is zero for every b, also 0.
 //
 // The renderer computes all of it in double. A heuristic names its number type `Real`, so that the
 // audit can run the same lines in float and show where they would have failed.
@@ -156,7 +157,8 @@ struct Step {
     double g_rev = 0;      // g_{i-1}: cos at vertex i-1 over d^2
     double pdf_rev_w = 0;  // p_sigma,i-2 at vertex i-1
     bool delta = false;    // vertex i-1 scattered by a delta lobe
-    bool connects = true;  // the strategy that vcm_{i-1} stands for is feasible
+    double n = 1;          // of the strategy that vcm_{i-1} stands for: 0 where not feasible; 1 for
+                           // light tracing, whose n is in start_camera()
 };
 // Eq. (20), (21).
 template <class H>
@@ -166,7 +168,7 @@ State advance(const H& h, const State& previous, const Step& k) {
     const auto ratio = h(R(k.g_rev) / R(k.pdf_fwd_a));
     const auto rest = h(R(k.pdf_rev_w)) * p.vc;
     if (k.delta) return store<H>({h(0), ratio * rest});
-    return store<H>({h(1 / R(k.pdf_fwd_a)), ratio * (feasible(h, k.connects) * p.vcm + rest)});
+    return store<H>({h(1 / R(k.pdf_fwd_a)), ratio * (h(R(k.n)) * p.vcm + rest)});
 }
 
 // w of one side of a connecting edge, eq. (26), (27): pdf_a is the density per area with which the
@@ -175,13 +177,13 @@ State advance(const H& h, const State& previous, const Step& k) {
 struct Side {
     double pdf_a = 0;
     double pdf_rev_w = 0;
-    bool connects = true;  // the strategy that moves the edge by one to this side is feasible
+    double n = 1;  // of the strategy that moves the edge by one to this side, as in Step
 };
 template <class H>
 typename H::Number side_weight(const H& h, const State& state, const Side& k) {
     using R = typename H::Real;
     const Terms<H> v = load<H>(state);
-    return h(R(k.pdf_a)) * (feasible(h, k.connects) * v.vcm + h(R(k.pdf_rev_w)) * v.vc);
+    return h(R(k.pdf_a)) * (h(R(k.n)) * v.vcm + h(R(k.pdf_rev_w)) * v.vc);
 }
 
 template <class H>
@@ -189,10 +191,12 @@ double weight_of(const H& h, typename H::Number camera, typename H::Number light
     return to_double(h(1) / (camera + h(1) + light));  // eq. (14)
 }
 
-// Case 1, s, t >= 2: connection, eq. (26), (27).
+// Case 1, s, t >= 2: connection, eq. (26), (27). n: how many of them a camera sample has.
 template <class H>
-double connection(const H& h, const State& camera, const Side& camera_side, const State& light,
-                  const Side& light_side) {
+double connection(const H& h, const State& camera, Side camera_side, const State& light,
+                  Side light_side, double n) {
+    camera_side.pdf_a /= n;
+    light_side.pdf_a /= n;
     return weight_of(h, side_weight(h, camera, camera_side), side_weight(h, light, light_side));
 }
 

@@ -20,7 +20,7 @@ std::uint64_t coin(const Walk& w) {
            std::uint64_t(w.index) * 0x94d049bb133111ebull;
 }
 
-// Is the strategy that the previous vertex's vcm stands for feasible? On the camera side vertex i
+// The strategy that the previous vertex's vcm stands for. On the camera side vertex i
 // stands for the connection of its i predecessors to a longer light subpath (light tracing for i =
 // 1); on the light side for i light vertices (next event for i = 1).
 Strategy previous_strategy(const Walk& w) {
@@ -55,13 +55,13 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
 
 template <Facts F>
 void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
-    mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, true};
+    mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, 1};
     const Strategy previous = previous_strategy(w);
     for_each_exponent<F>(e, [&](const auto& h, int i) {
         if constexpr (F.path_tracer) {
             w.vertex.mis[i] = mis::path_tracer::advance(h, step.pdf_fwd_a, step.delta);
         } else {
-            step.connects = e.weighs(previous, i);
+            step.n = e.count(previous, i);
             w.vertex.mis[i] = mis::advance(h, w.vertex.mis[i], step);
         }
     });
@@ -83,8 +83,16 @@ std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pas
     // same strata; a permutation of its own for every pass leaves no pattern.
     e.at(Work::sampling);
     const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
-    return permute_index(pixel, static_cast<std::uint64_t>(e.crop.area()),
-                         hash_combine(e.seed, 0x70616972 + pass));
+    const auto pixels = static_cast<std::uint64_t>(e.crop.area());
+    const auto key = [&](std::uint64_t p) { return hash_combine(e.seed, 0x70616972 + p); };
+    if (e.light_subpaths >= pixels) return permute_index(pixel, pixels, key(pass));
+    // Fewer subpaths than pixels go round among all of them before the next permutation, in even
+    // and in odd passes apart: the halves of the film stay independent. The permutation turned by
+    // chance gives every pixel exactly the same chance.
+    const std::uint64_t turns = pixels / e.light_subpaths;
+    const std::uint64_t round = (pass >> 1) / turns, turn = (pass >> 1) % turns;
+    const std::uint64_t k = key(2 * round + (pass & 1));
+    return (permute_index(pixel, pixels, k) + turn * e.light_subpaths + mix64(k) % pixels) % pixels;
 }
 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {

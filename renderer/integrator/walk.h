@@ -46,8 +46,10 @@ struct Estimator {
     int max_bounces = 16;
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
-    // Per pass: n of eq. (22). With connections at least one for each pixel of the crop.
+    // Per pass: n of eq. (22).
     std::uint64_t light_subpaths = 1;
+    // n of connections: the share of the camera samples that meet a light subpath to connect to.
+    double connection_share = 1;
     // What counts of them where light tracing competes with next event for direct light, paths of
     // two edges: n there is light_subpaths times this. A camera sample's share of a pixel is
     // stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
@@ -71,9 +73,11 @@ struct Estimator {
     bool splats(int edges) const { return families.light_tracing && share_of(edges) > 0; }
 
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
-    // In the weights of an exponent.
-    bool weighs(const Strategy& k, int exponent) const {
-        return weighed[exponent].has(family_of(k));
+    // n of a strategy in the weights of an exponent, as mis.h wants it beside a vcm.
+    double count(const Strategy& k, int exponent) const {
+        const Family family = family_of(k);
+        if (!weighed[exponent].has(family)) return 0;
+        return family == Family::connection ? connection_share : 1;
     }
 };
 

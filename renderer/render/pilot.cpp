@@ -50,7 +50,7 @@ Candidates find_candidates(const Scene& scene, const Estimator& full) {
     if (f.connection) {
         const Families connecting{f.emitter_hit, f.next_event, false, true};
         if (f.light_tracing && gaps(connecting) == unavoidable) c.add(connecting, 4);
-        c.add(f, 4);
+        for (const int quarters : {1, 2, 4}) c.add(f, quarters);
         if (f.light_tracing) c.add(f, 8);
     }
     return c;
@@ -61,12 +61,6 @@ double trimmed_sum(std::vector<double>& values, size_t trimmed) {
     std::sort(values.begin(), values.end());
     double sum = 0;
     for (size_t i = 0; i + trimmed < values.size(); ++i) sum += values[i];
-    return sum;
-}
-
-double sum_of_squares(const Energies& e) {
-    double sum = 0;
-    for (const double x : e) sum += x * x;
     return sum;
 }
 
@@ -91,23 +85,72 @@ Relative relative_scales(const PilotSums& r, const Grid& grid) {
     return relative;
 }
 
-// The relative squared error of each plan, per sample of a pixel; the last element is that of the
-// full one. A camera sample's contributions have the variance E[x^2] - E[x]^2; splats are so rare
-// in a pixel that theirs is E[x^2].
-std::vector<double> relative_errors(const PilotSums& r, const Grid& grid, int candidates) {
-    const Relative relative = relative_scales(r, grid);
-    std::vector<double> squares;
-    for (const Pair& p : r.pairs) squares.push_back(p.square * relative.scale[p.block]);
-    double full = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
+// What a group varies per sample in a pixel of a block, by the moments of a plan.
+double variance_in(const Moments& first, const Moments& second, int g, const Plan& p,
+                   double per_sample) {
+    const Family family{std::uint8_t(g / lengths)};
+    if (!p.families.has(family)) return 0;
+    const double square = second[g] * per_sample, mean = sqr(first[g] * per_sample);
+    // Splats are so rare in a pixel that E[x]^2 is nothing beside E[x^2].
+    if (family == Family::light_tracing) return square;
+    // Every pixel's samples take turns in meeting a light subpath: chance decides about a
+    // connection's value, not whether there is one.
+    return square - mean / (family == Family::connection ? connection_share(p) : 1);
+}
+
+// Over what moments say, the variance of what a camera sample gathers is lower by stratification
+// and higher because what one subpath finds comes together: measured for the full plan, by group.
+Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c) {
+    Moments measured{}, expected{}, shares;
+    double together = 0, apart = 0;
+    for (const PixelVariances& v : r.pixels) {
+        for (int g = 0; g < groups; ++g) {
+            measured[g] += v.groups[g] * relative.scale[v.block];
+            apart += v.groups[g] * relative.scale[v.block];
+        }
+        together += v.all * relative.scale[v.block];
+    }
     for (size_t b = 0; b < r.blocks.size(); ++b)
-        full += r.blocks[b].splat_square * relative.scale[b];
+        for (int g = 0; g < groups; ++g)
+            expected[g] += relative.scale[b] / relative.per_sample[b] *
+                           variance_in(r.blocks[b].first[c.count], r.blocks[b].second[c.count], g,
+                                       c.plans[c.count], relative.per_sample[b]) /
+                           pilot_passes;
+    shares.fill(1);
+    for (int g = 0; g < groups; ++g)
+        if (Family(g / lengths) != Family::light_tracing && expected[g] > 0)
+            shares[g] = std::clamp(measured[g] / expected[g], 0.05, 4.0) * together / apart;
+    return shares;
+}
+
+// The relative squared error of each plan, per sample of a pixel; the last element is that of the
+// full one. What the full one's camera samples vary is measured as it is, all that comes together
+// included; what another has more follows from moments.
+std::vector<double> relative_errors(const PilotSums& r, const Grid& grid,
+                                    const Candidates& candidates) {
+    const Relative relative = relative_scales(r, grid);
+    const Moments shares = measured_shares(r, relative, candidates);
+    std::vector<double> squares;
+    for (const PixelVariances& v : r.pixels) squares.push_back(v.all * relative.scale[v.block]);
+    double full = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
+    full *= pilot_passes;
+    for (size_t b = 0; b < r.blocks.size(); ++b)
+        for (int k = 0; k < lengths; ++k)
+            full += r.blocks[b].second[candidates.count][group_of(Family::light_tracing, k + 2)] *
+                    relative.scale[b];
     std::vector<double> errors;
-    for (int i = 0; i < candidates; ++i) {
+    for (int i = 0; i < candidates.count; ++i) {
         std::vector<double> excess;
         for (size_t b = 0; b < r.blocks.size(); ++b) {
             const BlockSums& sums = r.blocks[b];
-            const double means = sum_of_squares(sums.energy[i]) - sum_of_squares(sums.full_energy);
-            excess.push_back(relative.scale[b] * (sums.excess[i] - means * relative.per_sample[b]));
+            const auto variance = [&](int plan, int g) {
+                return variance_in(sums.first[plan], sums.second[plan], g, candidates.plans[plan],
+                                   relative.per_sample[b]);
+            };
+            double sum = 0;
+            for (int g = 0; g < groups; ++g)
+                sum += shares[g] * (variance(i, g) - variance(candidates.count, g));
+            excess.push_back(relative.scale[b] / relative.per_sample[b] * sum);
         }
         const double more = trimmed_sum(excess, size_t(trimmed_share * double(excess.size())));
         errors.push_back(std::max(least_error * full, full + more) / pilot_samples);
@@ -131,9 +174,9 @@ double cost_of(const Plan& p, const PilotSums& n) {
     double light = price.subpath * pilot_samples + price.light_ray * double(n.light.closest);
     if (p.families.light_tracing)
         light += price.light_tracing * rays[size_t(Family::light_tracing)];
-    const double connections =
-        p.families.connection ? price.connection * rays[size_t(Family::connection)] : 0;
-    return camera + light_share(p) * light + connections;
+    if (!p.families.connection) return camera + light_share(p) * light;
+    const double connections = price.connection * rays[size_t(Family::connection)];
+    return camera + light_share(p) * light + connection_share(p) * connections;
 }
 
 // Plans with connections end their walks by roulette earlier than others (make_estimator), which
@@ -148,7 +191,7 @@ std::optional<Run> run_pilot(const Estimator& e, const Candidates& candidates, i
     std::optional<PilotSums> sums = sample_pilot(e, grid, candidates, threads, control);
     if (!sums) return {};
     Run run{std::move(*sums), {}};
-    run.errors = relative_errors(run.sums, grid, candidates.count);
+    run.errors = relative_errors(run.sums, grid, candidates);
     return run;
 }
 

@@ -2,7 +2,8 @@
 // never enter an image tell what each way to render it, a *plan*, would cost and how noisy it would
 // be; the plan with the smallest error x time is taken. A plan is a choice of families and of light
 // subpaths per pixel: none, so that what is left is a path tracer; light tracing alone, from a
-// quarter of a subpath to two per pixel; connections too.
+// quarter of a subpath to two per pixel; connections too, for a quarter of the camera samples or
+// more.
 //
 // Of every path that the pilot finds, the balance heuristic's densities are known for all
 // strategies, hence also how the strategies of another plan would have shared it: the second moment

@@ -10,21 +10,14 @@ namespace midway {
 namespace {
 
 // What one thread does at a time.
-constexpr int chunks = 32, rows_per_chunk = pilot_rows / chunks;
+constexpr int chunks = 16, rows_per_chunk = pilot_rows / chunks;
 constexpr std::uint64_t pilot_seed = 0x70696c6f74;
 
 // The weights of the pilot's samples: exponent 1 four times, over these families.
 enum Column { all, emitter_hits, camera_side, without_connections, column_count };
 
 // Sums over strategies j of n_j p_j / (n_k p_k), by family, from the weights of strategy k.
-struct Densities {
-    double emitter_hit = 0, next_event = 0, light_tracing = 0, connection = 0;
-    double of(const Plan& p) const {
-        return emitter_hit + next_event +
-               (p.families.light_tracing ? light_share(p) * light_tracing : 0) +
-               (p.families.connection ? connection : 0);
-    }
-};
+using Densities = std::array<double, 4>;
 
 Densities densities(const Contribution& c) {
     const Family family = family_of(c.strategy);
@@ -40,11 +33,13 @@ Densities densities(const Contribution& c) {
             std::max(0.0, sum(all, true) - unconnected)};
 }
 
-void add_energy(Energies& e, int length, double energy, const Densities& d, const Plan& p) {
-    const double one = energy / d.of(p);
-    e[length] += one * d.emitter_hit;
-    e[lengths + length] += one * d.next_event;
-    if (p.families.connection) e[2 * lengths + length] += one * d.connection;
+// The same with a plan's families and numbers of samples.
+Densities planned(Densities d, const Plan& p) {
+    for (size_t f = 0; f < d.size(); ++f)
+        if (!p.families.has(Family(f))) d[f] = 0;
+    d[size_t(Family::light_tracing)] *= light_share(p);
+    d[size_t(Family::connection)] *= connection_share(p);
+    return d;
 }
 
 class PilotRecord {
@@ -54,16 +49,16 @@ class PilotRecord {
 
     void begin(int x, int y) {
         block_ = grid_.block(x, y);
-        luminance_ = 0;
+        gathered_ = {};
     }
-    double end() const { return luminance_; }
+    // The sample's weighted luminances.
+    const Moments& gathered() const { return gathered_; }
 
     bool wants(const Strategy&) const { return true; }
-    void contribution(const Contribution& c) { luminance_ += add(blocks_[block_], c); }
-    void splat(int x, int y, const Contribution& c) {
-        BlockSums& b = blocks_[grid_.block(x, y)];
-        b.splat_square += sqr(add(b, c));
+    void contribution(const Contribution& c) {
+        gathered_[group_of(family_of(c.strategy), c.strategy.edges())] += add(blocks_[block_], c);
     }
+    void splat(int x, int y, const Contribution& c) { add(blocks_[grid_.block(x, y)], c); }
 
   private:
     // Returns the weighted luminance.
@@ -72,12 +67,15 @@ class PilotRecord {
         if (!(value > 0) || !(weight > 0) || !std::isfinite(value)) return 0;
         const Densities d = densities(c);
         const double energy = weight * value;
-        const int length = length_group(c.strategy);
-        for (int i = 0; i < candidates_.count; ++i) {
-            b.excess[i] += energy * value * (1 / d.of(candidates_.plans[i]) - weight);
-            add_energy(b.energy[i], length, energy, d, candidates_.plans[i]);
+        for (int i = 0; i <= candidates_.count; ++i) {
+            const Densities own = planned(d, candidates_.plans[i]);
+            const double one = 1 / (own[0] + own[1] + own[2] + own[3]);
+            for (size_t f = 0; f < own.size(); ++f) {
+                const int g = group_of(Family(f), c.strategy.edges());
+                b.first[i][g] += energy * own[f] * one;
+                b.second[i][g] += energy * own[f] * one * value * one;
+            }
         }
-        add_energy(b.full_energy, length, energy, d, {});
         b.image += energy;
         return energy;
     }
@@ -86,11 +84,30 @@ class PilotRecord {
     const Candidates& candidates_;
     std::vector<BlockSums>& blocks_;
     int block_ = 0;
-    double luminance_ = 0;
+    Moments gathered_{};
 };
 
-void sample_pair(const Estimator& e, const Grid& grid, int column, int row, PilotRecord& record,
-                 LightSubpath& scratch, PilotSums& result) {
+void add_to(Moments& to, const Moments& from) {
+    for (int g = 0; g < groups; ++g) to[g] += from[g];
+}
+
+// `halves`: sums over the even and the odd passes.
+PixelVariances variances(const std::array<Moments, 2>& halves, int block) {
+    // The means of two halves differ by four times the variance of the mean of all.
+    const auto of = [](double difference) { return sqr(difference) / pilot_passes; };
+    PixelVariances v{block};
+    double all = 0;
+    for (int g = 0; g < groups; ++g) {
+        const double difference = halves[0][g] - halves[1][g];
+        all += difference;
+        v.groups[g] = of(difference);
+    }
+    v.all = of(all);
+    return v;
+}
+
+PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, int row,
+                            PilotRecord& record, LightSubpath& scratch, PilotSums& result) {
     const std::uint64_t stratum = std::uint64_t(row) * pilot_columns + column;
     const std::uint64_t jitter = hash_combine(pilot_seed, stratum);
     const auto place = [](int i, std::uint32_t random, int strata, int size) {
@@ -99,18 +116,19 @@ void sample_pair(const Estimator& e, const Grid& grid, int column, int row, Pilo
     };
     const int x = e.crop.x0 + place(column, std::uint32_t(jitter), pilot_columns, e.crop.width());
     const int y = e.crop.y0 + place(row, std::uint32_t(jitter >> 32), pilot_rows, e.crop.height());
-    double luminances[2];
-    for (int half = 0; half < 2; ++half) {
-        const std::uint64_t pass = 2 * stratum + half;
+    std::array<Moments, 2> halves{};
+    for (int i = 0; i < pilot_passes; ++i) {
+        // A small crop has the same pixel in many strata: passes of their own for all of them.
+        const std::uint64_t pass = pilot_passes * stratum + i;
         record.begin(x, y);
         scratch.clear();
         if (e.families.needs_light_subpaths())
             trace_light_subpath(e, paired_subpath(e, x, y, pass), pass, scratch, record,
                                 result.light);
         trace_camera_subpath(e, x, y, pass, scratch, record, result.camera);
-        luminances[half] = record.end();
+        add_to(halves[i & 1], record.gathered());
     }
-    result.pairs.push_back({sqr(luminances[0] - luminances[1]), grid.block(x, y)});
+    return variances(halves, grid.block(x, y));
 }
 
 PilotSums sample_chunk(const Estimator& e, const Grid& grid, const Candidates& candidates,
@@ -124,7 +142,7 @@ PilotSums sample_chunk(const Estimator& e, const Grid& grid, const Candidates& c
     for (int row = chunk * rows_per_chunk; row < (chunk + 1) * rows_per_chunk; ++row)
         for (int column = 0; column < pilot_columns; ++column) {
             if (control && !control->go_on()) return {};
-            sample_pair(e, grid, column, row, record, scratch, result);
+            result.pixels.push_back(sample_pixel(e, grid, column, row, record, scratch, result));
         }
     result.camera.by_strategy = result.light.by_strategy = nullptr;
     return result;
@@ -147,12 +165,8 @@ std::vector<PilotSums> sample_chunks(const Estimator& e, const Grid& grid,
             });
     }
     for (const PilotSums& r : results)
-        if (r.pairs.empty()) return {};
+        if (r.pixels.empty()) return {};
     return results;
-}
-
-void add_to(Energies& to, const Energies& from) {
-    for (int g = 0; g < groups; ++g) to[g] += from[g];
 }
 
 PilotSums added(std::vector<PilotSums>& parts) {
@@ -161,14 +175,12 @@ PilotSums added(std::vector<PilotSums>& parts) {
         const PilotSums& p = parts[i];
         for (size_t b = 0; b < all.blocks.size(); ++b) {
             all.blocks[b].image += p.blocks[b].image;
-            all.blocks[b].splat_square += p.blocks[b].splat_square;
-            for (size_t k = 0; k < most_candidates; ++k) {
-                all.blocks[b].excess[k] += p.blocks[b].excess[k];
-                add_to(all.blocks[b].energy[k], p.blocks[b].energy[k]);
+            for (size_t k = 0; k <= most_candidates; ++k) {
+                add_to(all.blocks[b].first[k], p.blocks[b].first[k]);
+                add_to(all.blocks[b].second[k], p.blocks[b].second[k]);
             }
-            add_to(all.blocks[b].full_energy, p.blocks[b].full_energy);
         }
-        all.pairs.insert(all.pairs.end(), p.pairs.begin(), p.pairs.end());
+        all.pixels.insert(all.pixels.end(), p.pixels.begin(), p.pixels.end());
         for (size_t k = 0; k < all.shadow_rays.size(); ++k) all.shadow_rays[k] += p.shadow_rays[k];
         all.camera.closest += p.camera.closest;
         all.light.closest += p.light.closest;

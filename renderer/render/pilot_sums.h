@@ -14,15 +14,19 @@
 
 namespace midway {
 
-// Places of the samples: strata of the crop, a pair of samples in each.
-inline constexpr int pilot_columns = 256, pilot_rows = 64;
-inline constexpr int pilot_samples = 2 * pilot_columns * pilot_rows;
+// Places of the samples: strata of the crop, with a pixel in each. A pixel has the passes of a
+// render, eight even and eight odd ones: what stratification saves is seen (Owen-Sobol numbers make
+// next event's noise fall faster than that of connections and splats, whose places are by chance).
+inline constexpr int pilot_columns = 64, pilot_rows = 64, pilot_passes = 16;
+inline constexpr int pilot_pixels = pilot_columns * pilot_rows;
+inline constexpr int pilot_samples = pilot_pixels * pilot_passes;
 
-inline constexpr size_t most_candidates = 8;
+inline constexpr size_t most_candidates = 10;
 struct Candidates {
-    std::array<Plan, most_candidates> plans;
+    std::array<Plan, most_candidates + 1> plans;  // behind them the full one
     int count = 0;
     bool splats_direct = true;  // of the plans with light tracing
+
     void add(const Families& f, int quarters) {
         plans[count++] = {f, quarters, splats_direct || !f.light_tracing};
     }
@@ -30,28 +34,31 @@ struct Candidates {
 
 // Contributions that a camera sample has at most one or a few of, and that vary apart: by family
 // and length of the path.
-inline constexpr int lengths = 3, groups = 3 * lengths;  // up to 2 edges, 3, more
-inline int length_group(const Strategy& k) { return std::clamp(k.edges() - 2, 0, lengths - 1); }
-using Energies = std::array<double, groups>;
+inline constexpr int lengths = 3, groups = 4 * lengths;  // up to 2 edges, 3, more
+inline int group_of(Family f, int edges) {
+    return int(f) * lengths + std::clamp(edges - 2, 0, lengths - 1);
+}
+using Moments = std::array<double, groups>;
 
+// Sums over what the samples find in a block.
 struct BlockSums {
-    double image = 0;         // of luminance
-    double splat_square = 0;  // of the full plan's splats
-    // Of each plan: what its second moment has more than the full one's, and what its camera
-    // samples gather of the image.
-    std::array<double, most_candidates> excess{};
-    std::array<Energies, most_candidates> energy{};
-    Energies full_energy{};
+    double image = 0;  // of luminance
+    // How a plan's strategies would share it, and their second moments; the last one is the full
+    // plan.
+    std::array<Moments, most_candidates + 1> first{}, second{};
 };
 
-struct Pair {
-    double square = 0;  // of the difference of the two samples' luminances
+// Variances per sample of what the full plan's camera samples gather, from the halves of the
+// passes.
+struct PixelVariances {
     int block = 0;
+    double all = 0;
+    Moments groups{};
 };
 
 struct PilotSums {
     std::vector<BlockSums> blocks;
-    std::vector<Pair> pairs;
+    std::vector<PixelVariances> pixels;
     RayCounts camera, light;
     std::vector<std::uint64_t> shadow_rays;  // by strategy_index
 };
@@ -69,8 +76,9 @@ struct Grid {
     }
 };
 
-// Light subpaths per pixel.
+// Light subpaths per pixel, and the share of the camera samples that meet one.
 inline double light_share(const Plan& plan) { return plan.light_quarters / 4.0; }
+inline double connection_share(const Plan& plan) { return std::min(1.0, light_share(plan)); }
 
 // Binds the pilot's samples to a scene; throws as make_estimator().
 Estimator pilot_estimator(const Scene& scene, const CameraDescription& camera,

@@ -53,7 +53,7 @@ void leave_out(const SceneFeatures& features, Families& f) {
 // At least one: it is a divisor.
 std::uint64_t light_subpaths(const Plan& plan, std::uint64_t pixels) {
     const int quarters = plan.light_quarters;
-    const int least = plan.families.connection ? 4 : 0;
+    const int least = plan.families.connection ? 1 : 0;
     if (quarters < least || quarters > 8)
         refuse("impossible number of light subpaths", "plan", "let auto decide");
     return std::max<std::uint64_t>(1, pixels * quarters / 4);
@@ -130,6 +130,7 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     e.sampler = s.sampler;
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     e.light_subpaths = planned ? light_subpaths(*s.plan, pixels) : pixels;
+    e.connection_share = std::min(1.0, double(e.light_subpaths) / double(pixels));
     e.direct_share = planned && !s.plan->splats_direct ? 0 : direct_share(scene, e.families);
     return e;
 }

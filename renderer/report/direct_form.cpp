@@ -18,7 +18,8 @@ long double log_of(double x) {
 }  // namespace
 
 PathSetting path_setting(const Estimator& e) {
-    return {e.families, double(e.light_subpaths), e.max_bounces, e.direct_share};
+    return {e.families, double(e.light_subpaths), e.max_bounces, e.direct_share,
+            e.connection_share};
 }
 
 double light_tracing_count(const PathSetting& s, int edges) {
@@ -45,7 +46,9 @@ bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& settin
 long double log_density(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     if (!is_feasible(p, k, setting)) return minus_infinity;
     const int last = p.edges();
-    long double sum = k.s == 1 ? log_of(light_tracing_count(setting, last)) : 0.0L;
+    long double sum = 0;
+    if (k.s == 1) sum = log_of(light_tracing_count(setting, last));
+    if (k.s >= 2 && k.t >= 2) sum = log_of(setting.connection_share);
     for (int i = 1; i < k.s; ++i)
         sum += log_of(p.vertices[i].camera_w) + log_of(p.vertices[i].camera_g);
     for (int i = k.s; i < last; ++i)

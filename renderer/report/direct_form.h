@@ -41,7 +41,7 @@ struct PathSetting {
     Families families;
     double light_subpaths = 1;
     int max_bounces = 1000;
-    double direct_share = 1;  // as in Estimator
+    double direct_share = 1, connection_share = 1;  // as in Estimator
 };
 PathSetting path_setting(const Estimator& estimator);
 

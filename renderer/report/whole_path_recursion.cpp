@@ -7,6 +7,12 @@ bool has(const PathSetting& setting, const Strategy& k) {
     return setting.families.has(family_of(k));
 }
 
+// n as mis.h wants it beside a vcm.
+double count(const PathSetting& setting, const Strategy& k) {
+    if (!has(setting, k)) return 0;
+    return k.s >= 2 && k.t >= 2 ? setting.connection_share : 1;
+}
+
 // Sums at the vertices of the camera's subpath; element i belongs to vertex i.
 template <class H>
 std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const PathSetting& setting) {
@@ -17,7 +23,7 @@ std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const PathS
         states[i] =
             mis::advance(h, states[i - 1],
                          {p.from_camera(i), p.vertices[i - 1].light_g, p.vertices[i - 2].light_w,
-                          p.vertices[i - 1].delta, has(setting, {i - 1, 2})});
+                          p.vertices[i - 1].delta, count(setting, {i - 1, 2})});
     return states;
 }
 
@@ -38,7 +44,7 @@ std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const PathSe
         states[j] =
             mis::advance(h, states[j - 1],
                          {p.from_light(i), p.vertices[i + 1].camera_g, p.vertices[i + 2].camera_w,
-                          p.vertices[i + 1].delta, has(setting, {2, j - 1})});
+                          p.vertices[i + 1].delta, count(setting, {2, j - 1})});
     }
     return states;
 }
@@ -48,8 +54,8 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting
              const Strategy& k, const std::vector<mis::State>& from_camera,
              const std::vector<mis::State>& from_light) {
     const int s = k.s;
-    const double count = light_tracing_count(setting, k.edges());
-    const double share = count / setting.light_subpaths;
+    const double tracing = light_tracing_count(setting, k.edges());
+    const double share = tracing / setting.light_subpaths;
     const mis::State camera = from_camera[s - 1];
     if (k.t == 0)
         return mis::emitter_hit(h, camera,
@@ -60,16 +66,17 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting
     if (s == 1)
         return mis::light_tracing(
             h, from_light[k.t - 1],
-            {towards_light, l.vertices[2].camera_w, has(setting, {2, k.t - 1})}, count);
+            {towards_light, l.vertices[2].camera_w, count(setting, {2, k.t - 1})}, tracing);
     const mis::Side camera_side{towards_camera * share, c.vertices[s - 2].light_w,
-                                has(setting, {s - 1, k.t + 1})};
+                                count(setting, {s - 1, k.t + 1})};
     if (k.t == 1)
         return mis::next_event(
             h, camera, camera_side,
             {c.next_event, c.emission, towards_light, c.hittable && setting.families.emitter_hit});
     const mis::Side light_side{towards_light, l.vertices[s + 1].camera_w,
-                               has(setting, {s + 1, k.t - 1})};
-    return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side);
+                               count(setting, {s + 1, k.t - 1})};
+    return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side,
+                           setting.connection_share);
 }
 
 // A strategy that has no density at the path never asks for its weight.

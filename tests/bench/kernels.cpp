@@ -70,7 +70,7 @@ void weigh_a_connection(benchmark::State& state) {
     for (auto _ : state) {
         a.pdf_a += 1e-9;
         mis::with_heuristic(double(state.range(0)) / 10, [&](const auto& h) {
-            benchmark::DoNotOptimize(mis::connection(h, camera, a, light, b));
+            benchmark::DoNotOptimize(mis::connection(h, camera, a, light, b, 1));
         });
     }
 }

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "math/float_mode.h"
-#include "render/settings.h"
+#include "render/pilot.h"
 #include "report/drawn_path.h"
 #include "report/whole_path_recursion.h"
 #include "support/agreement_scenes.h"
@@ -28,12 +28,13 @@ struct Subject {
     PathSetting setting;
 };
 
-Subject prepare(AgreementScene scene, const Families& families) {
+Subject prepare(AgreementScene scene, const Plan& plan) {
     RenderSettings s;
     s.width = 20;
     s.height = 16;
     s.exponents = exponents;
-    s.families = families;
+    s.technique = Technique::automatic;
+    s.plan = plan;
     s.max_bounces = 6;
     Subject r{std::move(scene), {}, {}};
     r.estimator = make_estimator(*r.scene.scene, r.scene.camera, s);
@@ -159,12 +160,9 @@ TEST_P(MisOracle, RecursionIsTheDirectFormGivenTheSamePdfs) {
     EXPECT_LE(quantile(r.estimator, 0.999), 1e-3) << r.worst;
 }
 
-// The same with families taken out, which the walks' sums have to know.
-TEST_P(MisOracle, KnowsTheFamiliesTakenOut) {
-    for (const Families& families :
-         {Families{false, true, true, true}, Families{true, false, true, true},
-          Families{true, true, false, true}, Families{true, true, true, false}}) {
-        const Subject s = prepare(make_agreement_scene(GetParam()), families);
+void expect_weights_of(const std::string& scene, const std::vector<Plan>& plans) {
+    for (const Plan& plan : plans) {
+        const Subject s = prepare(make_agreement_scene(scene), plan);
         SamePdfs r;
         draw(s, by_tier(1500, 50000), [&](const DrawnPath& p) {
             if (s.estimator.has(p.contribution.strategy)) compare_same_pdfs(s, p, r);
@@ -172,9 +170,22 @@ TEST_P(MisOracle, KnowsTheFamiliesTakenOut) {
         ASSERT_FALSE(r.estimator.empty());
         EXPECT_LE(r.recursion, 1e-9);
         EXPECT_LE(r.sum, 1e-9);
-        EXPECT_LE(quantile(r.estimator, 0.5), 1e-6) << to_string(families) << "\n" << r.worst;
-        EXPECT_LE(quantile(r.estimator, 0.99), 1e-3) << to_string(families) << "\n" << r.worst;
+        EXPECT_LE(quantile(r.estimator, 0.5), 1e-6) << describe(plan) << "\n" << r.worst;
+        EXPECT_LE(quantile(r.estimator, 0.99), 1e-3) << describe(plan) << "\n" << r.worst;
     }
+}
+
+// The same with families taken out, which the walks' sums have to know.
+TEST_P(MisOracle, KnowsTheFamiliesTakenOut) {
+    expect_weights_of(GetParam(), {{{false, true, true, true}},
+                                   {{true, false, true, true}},
+                                   {{true, true, false, true}},
+                                   {{true, true, true, false}}});
+}
+
+// The same where not every camera sample has connections, or there are more light subpaths.
+TEST_P(MisOracle, KnowsHowManySamplesThereAre) {
+    expect_weights_of(GetParam(), {{{}, 1}, {{true, true, false, true}, 2}, {{}, 8}});
 }
 
 // Sum over the strategies of a path, each with the pdfs that it evaluates from its own side.

@@ -55,6 +55,7 @@ std::vector<Setting> all_settings() {
         {"bdpt without connections", with_families("emitter,next-event,light"), power2_facts},
         {"bdpt without light tracing", with_families("emitter,next-event,connect"), power2_facts},
         {"plan with few light subpaths", planned("emitter,next-event,light", 1), power2_facts},
+        {"plan with few connections", planned("emitter,next-event,light,connect", 1), power2_facts},
         {"plan with many", planned("emitter,next-event,light,connect", 8), power2_facts},
         {"balance", with_exponents(Technique::path, {1}), no_facts},
         {"list", with_exponents(Technique::bdpt, {2, 1}), no_facts},

@@ -76,6 +76,7 @@ TEST(MisRecursion, EqualsTheDirectFormForMadeUpDensities) {
         if (i % 2) setting.families = {};
         setting.light_subpaths = i % 5 ? std::pow(10.0, double(random() % 7)) : 1;
         setting.direct_share = i % 4 ? std::pow(10.0, -0.5 * double(random() % 4)) : 1;
+        setting.connection_share = i % 3 ? std::pow(0.5, double(random() % 4)) : 1;
         ASSERT_NO_FATAL_FAILURE(expect_same(make_up(random, m), setting)) << "path " << i;
     }
 }
@@ -122,6 +123,17 @@ TEST(MisRecursion, CountsTheSamplesOfLightTracing) {
     const std::vector<double> w = recursive_weights(p, p, setting, 1);
     EXPECT_NEAR(w[0], 1000.0 / 1004, 1e-12);
     for (int s = 2; s <= 5; ++s) EXPECT_NEAR(w[s - 1], 1.0 / 1004, 1e-12);
+}
+
+// Not every camera sample connects.
+TEST(MisRecursion, CountsTheSamplesThatConnect) {
+    PathPdfs p;
+    p.vertices.resize(5);
+    PathSetting setting;
+    setting.connection_share = 0.25;
+    const std::vector<double> w = recursive_weights(p, p, setting, 1);
+    const double expected[] = {1 / 3.5, 0.25 / 3.5, 0.25 / 3.5, 1 / 3.5, 1 / 3.5};
+    for (int i = 0; i < 5; ++i) EXPECT_NEAR(w[i], expected[i], 1e-12) << i;
 }
 
 // Of direct light alone.
