@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
         for (const auto& make :
              {cornell, plates, five_lights, idol, ajar, ring, lanterns, terrace}) {
             const Scene scene = make();
+            check_scene(scene);
             std::size_t triangles = 0;
             for (const Object& object : scene.objects)
                 triangles += scene.geometries[object.geometry].mesh.triangles.size();
