@@ -38,8 +38,7 @@ std::optional<Families> family_of_line(const std::string& what) {
 
 // The light subpaths that a plan with more families than it was made for goes with.
 void complete(Plan& plan) {
-    const bool none = plan.families.needs_light_subpaths() && plan.light_quarters == 0;
-    if (plan.families.connection || none) plan.light_quarters = std::max(plan.light_quarters, 4);
+    if (plan.families.needs_light_subpaths() && plan.light_quarters == 0) plan.light_quarters = 4;
 }
 
 void add_scene(const PreparedScene& p, const Case& usual, std::vector<Case>& cases) {
@@ -93,7 +92,7 @@ void add_plan(const PreparedScene& p, const Case& usual, std::vector<Case>& case
     more = chosen;
     more.splats_direct = true;
     add("direct light's splats", why, more);
-    add("all that auto leaves out", why, Plan{full, chosen.light_quarters});
+    add("all that auto leaves out", why, Plan{full, std::max(chosen.light_quarters, 4)});
 }
 
 std::vector<Case> find_cases(const PreparedScene& p, const RenderSettings& settings, int threads) {
