@@ -61,8 +61,9 @@ void print_path(const InspectedPath& p, const InspectedSample& sample) {
 }  // namespace
 
 void print_sample(const InspectedSample& sample) {
-    fmt::print("pixel {},{} sample {} light subpath {}\n", sample.x, sample.y, sample.pass,
-               sample.light_subpath);
+    fmt::print("pixel {},{} sample {} {}\n", sample.x, sample.y, sample.pass,
+               sample.light_subpath ? fmt::format("light subpath {}", *sample.light_subpath)
+                                    : "no light subpath");
     for (size_t i = 0; i < sample.camera.size(); ++i) print_vertex(sample.camera[i], 'C', i);
     for (size_t i = 0; i < sample.light.size(); ++i) print_vertex(sample.light[i], 'L', i);
     for (const InspectedPath& p : sample.paths) print_path(p, sample);

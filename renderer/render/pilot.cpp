@@ -100,6 +100,8 @@ double variance_in(const Moments& first, const Moments& second, int g, const Pla
 
 // Over what moments say, the variance of what a camera sample gathers is lower by stratification
 // and higher because what one subpath finds comes together: measured for the full plan, by group.
+// Light that a longer walk hits by chance stays where it is: of that a plan has more where others
+// would have found it better, and it comes in spikes that nothing smooths.
 Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c) {
     Moments measured{}, expected{}, shares;
     double together = 0, apart = 0;
@@ -117,9 +119,12 @@ Moments measured_shares(const PilotSums& r, const Relative& relative, const Cand
                                        c.plans[c.count], relative.per_sample[b]) /
                            pilot_passes;
     shares.fill(1);
-    for (int g = 0; g < groups; ++g)
-        if (Family(g / lengths) != Family::light_tracing && expected[g] > 0)
-            shares[g] = std::clamp(measured[g] / expected[g], 0.05, 4.0) * together / apart;
+    for (int g = 0; g < groups; ++g) {
+        if (Family(g / lengths) == Family::light_tracing || !(expected[g] > 0)) continue;
+        const bool by_chance = g > group_of(Family::emitter_hit, 2) && g < lengths;
+        shares[g] = std::clamp(measured[g] / expected[g], by_chance ? 1 : 0.05, 4.0);
+        shares[g] *= together / apart;
+    }
     return shares;
 }
 

@@ -299,7 +299,8 @@ InspectedSample inspect_sample(const Inspectable& what, int x, int y, std::uint6
     s.x = x;
     s.y = y;
     s.pass = pass;
-    s.light_subpath = paired_subpath(e, x, y, pass);
+    const std::uint64_t paired = paired_subpath(e, x, y, pass);
+    if (e.families.needs_light_subpaths() && paired < e.light_subpaths) s.light_subpath = paired;
     s.exponents = what.settings.exponents;
     s.unit_exponent = film_unit_exponent(scene.total_power);
     const DrawnSample drawn = draw_paths(e, x, y, pass, [&](const DrawnPath& p) {

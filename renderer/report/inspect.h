@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,7 +80,8 @@ struct InspectedPath {
 
 struct InspectedSample {
     int x = 0, y = 0;
-    std::uint64_t pass = 0, light_subpath = 0;
+    std::uint64_t pass = 0;
+    std::optional<std::uint64_t> light_subpath;  // the one it is paired with; not every one is
     std::vector<double> exponents;
     int unit_exponent = 0;
     std::vector<InspectedVertex> camera, light;  // the subpaths, from their own ends on

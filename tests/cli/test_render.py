@@ -194,6 +194,8 @@ class DebugPixel(CliTest):
         # Names of vertices, what each path gave, and weights of all strategies that sum to one.
         lines = self.replay("10,12,3", "--exponent", "0,2", "--technique", "bdpt").stdout.splitlines()
         self.assertRegex(lines[0], r"^pixel 10,12 sample 3 light subpath \d+$")
+        path = self.replay("10,12,3", "--technique", "path").stdout.splitlines()
+        self.assertEqual("pixel 10,12 sample 3 no light subpath", path[0])
         self.assertRegex(lines[1], r"^  C0 camera at .* pdf_fwd - ")
         self.assertTrue(any(re.match(r"  L0 .*throughput", line) for line in lines), lines)
         sums, paths = None, 0
