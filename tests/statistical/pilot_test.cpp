@@ -56,12 +56,15 @@ double measured_error(const AgreementScene& scene, const Plan& plan, SamplerKind
     return sum;
 }
 
-// Relative to the full plan. Over 20 seeds of the render and of the pilot the quotient of forecast
-// and measured error had the spread that is printed; the bounds are six times as far. Found to
-// fail: light tracing's density not scaled by its subpaths, the pilot's strategy counted in plans
-// that lack it, roulette of the wrong kind.
+// Relative to the full plan. Over 20 other seeds of the renders the quotient of forecast and
+// measured error had a spread (one standard deviation of its logarithm) of at most 0.02, of 0.06
+// where a path tracer finds what rough metal casts; what it was off on the average was at most
+// 0.09, and 0.15 there. The bounds are five spreads beyond that: false alarm below 1e-4. Found to
+// fail: light tracing or connections not scaled by how many there are, the pilot's strategy counted
+// in plans that lack it, roulette of the wrong kind.
 TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
-    for (const char* name : {"area", "rough_metal", "sky_map"})
+    for (const auto& [name, bound] :
+         {std::pair{"area", 0.2}, {"rough_metal", 0.45}, {"sky_map", 0.2}})
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
             const AgreementScene scene = make_agreement_scene(name);
             RenderSettings s = planned(scene, {}, 48);
@@ -75,7 +78,7 @@ TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
                 std::printf("%-12s %-12s %-80s forecast %.3f measured %.3f\n", name,
                             std::string(to_string(sampler)).c_str(), describe(f.plan).c_str(),
                             f.error, measured);
-                EXPECT_NEAR(std::log(f.error / measured), 0, 0.25)
+                EXPECT_NEAR(std::log(f.error / measured), 0, bound)
                     << name << " " << describe(f.plan);
             }
         }
