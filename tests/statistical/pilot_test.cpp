@@ -57,7 +57,7 @@ double measured_error(const AgreementScene& scene, const Plan& plan, SamplerKind
 }
 
 // Relative to the full plan. Over 20 other seeds of the renders the quotient of forecast and
-// measured error had a spread (one standard deviation of its logarithm) of at most 0.02, of 0.06
+// measured error had a spread (one standard deviation of its logarithm) of at most 0.03, of 0.07
 // where a path tracer finds what rough metal casts; what it was off on the average was at most
 // 0.09, and 0.15 there. The bounds are five spreads beyond that: false alarm below 1e-4. Found to
 // fail: light tracing or connections not scaled by how many there are, the pilot's strategy counted
