@@ -56,26 +56,27 @@ double measured_error(const AgreementScene& scene, const Plan& plan, SamplerKind
     return sum;
 }
 
-// Relative to the full plan. Over 20 other seeds of the renders the quotient of forecast and
-// measured error had a spread (one standard deviation of its logarithm) of at most 0.03, of 0.07
-// where a path tracer finds what rough metal casts; what it was off on the average was at most
-// 0.09, and 0.15 there. The bounds are five spreads beyond that: false alarm below 1e-4. Found to
-// fail: light tracing or connections not scaled by how many there are, the pilot's strategy counted
-// in plans that lack it, roulette of the wrong kind.
+// Relative to the full plan. Over 20 other times sixteen seeds of the renders the quotient of
+// forecast and measured error had a spread (one standard deviation of its logarithm) of at most
+// 0.03 about a mean of at most 0.09; with Sobol numbers, where a path tracer finds what rough metal
+// casts, 0.07 about 0.09 (0.03 about 0.15 with connections). Bounds: five spreads beyond, false
+// alarm below 1e-4. Found to fail: light tracing or connections not scaled by how many there are,
+// the pilot's strategy counted in plans that lack it, roulette of the wrong kind.
 TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
-    for (const auto& [name, bound] :
-         {std::pair{"area", 0.22}, {"rough_metal", 0.5}, {"sky_map", 0.22}})
+    for (const std::string name : {"area", "rough_metal", "sky_map"})
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
             const AgreementScene scene = make_agreement_scene(name);
             RenderSettings s = planned(scene, {}, 48);
             s.plan.reset();
             s.sampler = sampler;
+            const bool spiky = name == "rough_metal" && sampler == SamplerKind::sobol;
+            const double bound = spiky ? 0.5 : 0.25;
             const PlanDecision d = *decide_plan(*scene.scene, scene.camera, s, 1);
             ASSERT_GE(d.forecasts.size(), 9u);
             const double full = measured_error(scene, {{}, 4}, sampler);
             for (const PlanForecast& f : d.forecasts) {
                 const double measured = measured_error(scene, f.plan, sampler) / full;
-                std::printf("%-12s %-12s %-80s forecast %.3f measured %.3f\n", name,
+                std::printf("%-12s %-12s %-80s forecast %.3f measured %.3f\n", name.c_str(),
                             std::string(to_string(sampler)).c_str(), describe(f.plan).c_str(),
                             f.error, measured);
                 EXPECT_NEAR(std::log(f.error / measured), 0, bound)
