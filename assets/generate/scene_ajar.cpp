@@ -98,6 +98,34 @@ void add_table(Scene& scene) {
           clay, translation({0.43, y, 0.50}));
 }
 
+// A tube on the corridor's wall, closed below, with a square that shines up to the ceiling inside:
+// from nowhere in the room, and from little of the corridor, can it be seen.
+void add_wall_lamp(Scene& scene) {
+    const double radius = 0.10, thickness = 0.008, length = 0.36, depth = 0.10;
+    const dmat4 place_of_it = translation({0.85, 1.85, back + 0.16});
+    const int shade = add_material(scene, lambert("shade", {0.45, 0.42, 0.38}));
+    const int bulb = add_material(scene, lamp("bulb", dvec3(1.0, 0.88, 0.68) * 16000.0));
+    const double inner = radius - thickness;
+    place(scene, "shade",
+          add_solid(scene, "shade",
+                    lathe({{0, 0},
+                           {radius, 0},
+                           {radius, 0},
+                           {radius, length},
+                           {radius, length},
+                           {inner, length},
+                           {inner, length},
+                           {inner, thickness},
+                           {inner, thickness},
+                           {0, thickness}},
+                          64)),
+          shade, place_of_it);
+    const double y = length - depth, r = 0.06;
+    place(scene, "bulb",
+          add_surface(scene, "bulb", quad({-r, y, r}, {r, y, r}, {r, y, -r}, {-r, y, -r})), bulb,
+          place_of_it);
+}
+
 }  // namespace
 
 Scene ajar() {
@@ -105,11 +133,7 @@ Scene ajar() {
     add_shell(scene);
     add_door(scene);
     add_table(scene);
-    const int bulb = add_material(scene, lamp("corridor lamp", dvec3(1.0, 0.88, 0.68) * 1400.0));
-    const double y = height - 0.03, x = 0.8, z = (divide - wall_thickness + back) / 2;
-    show_surface(scene, "corridor lamp", bulb,
-                 quad({x - 0.25, y, z - 0.15}, {x + 0.25, y, z - 0.15}, {x + 0.25, y, z + 0.15},
-                      {x - 0.25, y, z + 0.15}));
+    add_wall_lamp(scene);
     scene.cameras.push_back({.name = "camera",
                              .yfov = 38 * pi / 180,
                              .aspect_ratio = 4.0 / 3.0,
