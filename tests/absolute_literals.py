@@ -44,7 +44,7 @@ ALLOWED = {
     ("renderer/scene/light.cpp", "1e-9f * ramp"): "relative to the ramp of the spot",
     ("renderer/render/scene_edits.cpp", "widest_inner = 0.999f"): "a ratio of angles",
     ("renderer/render/scene_edits.h", "narrowest_cone = 1e-3f"): "an angle in radians",
-    ("renderer/render/coverage.cpp", "1e-3f"): "index of refraction, as matched_index",
+    ("renderer/shading/texture.cpp", "ior - 1) < 1e-3f"): "index of refraction, as matched_index",
     ("renderer/render/renderer.cpp", "1e-9 *"): "nanoseconds",
     ("renderer/render/waves.cpp", "1e-9"): "seconds",
     ("renderer/render/live_job.cpp", "40e-6"): "seconds",

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "shading/microfacet.h"
+#include "shading/texture.h"
 
 namespace midway {
 namespace {
@@ -59,15 +60,12 @@ SceneFeatures scene_features(const Scene& s) {
     f.lit = s.emission_pick.total > 0;
     for (const Object& o : s.geometry->objects) {
         const Material& m = s.materials[o.material];
-        // Textures can only lower roughness, metalness and transmission below their factors.
-        const bool may_be_smooth = sqr(m.roughness) < smooth_alpha ||
-                                   m.metallic_roughness_texture.used() ||
-                                   std::abs(m.ior - 1) < 1e-3f;
+        // Textures can only lower metalness and transmission below their factors.
         const bool mirrors = m.specular > 0 || m.metallic > 0 || m.transmission > 0;
         const bool black = max_component(m.base_color) == 0;
         const bool diffuse = !black && (m.metallic < 1 || m.metallic_roughness_texture.used()) &&
                              (m.transmission < 1 || m.transmission_texture.used());
-        f.smooth |= mirrors && may_be_smooth;
+        f.smooth |= mirrors && may_be_smooth(m);
         f.rough |= diffuse || (mirrors && (sqr(m.roughness) >= smooth_alpha));
     }
     std::set<std::string_view> kinds;

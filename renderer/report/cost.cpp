@@ -26,6 +26,8 @@ std::optional<NeedlessWork> work_of(const std::string& what) {
     if (what == "texture coordinates") return NeedlessWork{.attributes = true};
     if (what == "transparency") return NeedlessWork{.coverage = true};
     if (what == "lights") return NeedlessWork{.lights = true};
+    if (what == "lights at infinity") return NeedlessWork{.sky = true};
+    if (what == "transmission") return NeedlessWork{.transmission = true};
     return {};
 }
 

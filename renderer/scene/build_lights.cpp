@@ -129,9 +129,10 @@ Light make_punctual(const PunctualLight& d, const Scene& s, float lamp_strength)
     return l;
 }
 
-void add_sky(Scene& s, const SkyDescription& d, const Sky* previous) {
+// `needless`: a black one is a light too, which nothing picks.
+void add_sky(Scene& s, const SkyDescription& d, const Sky* previous, bool needless) {
     s.sky = make_sky(d, previous);
-    if (!(s.sky->mean_radiance > 0)) return;
+    if (!(s.sky->mean_radiance > 0) && !needless) return;
     Light l;
     l.kind = LightKind::sky;
     l.power = 4 * pi_d * s.sky->mean_radiance * pi_d * s.radius * s.radius;
@@ -241,7 +242,14 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
     s.lamps = make_lamps(s, previous);
     for (const PunctualLight& l : d.lights)
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
-    if (d.sky) add_sky(s, *d.sky, previous && previous->sky ? &*previous->sky : nullptr);
+    const Sky* const previous_sky = previous && previous->sky ? &*previous->sky : nullptr;
+    if (d.sky) {
+        add_sky(s, *d.sky, previous_sky, options.needless.sky);
+    } else if (options.needless.sky) {
+        SkyDescription black = default_sky();
+        black.strength = 0;
+        add_sky(s, black, nullptr, true);
+    }
     if (options.needless.lights) {
         make_light_tables(s, nullptr);
     } else if (previous && same_places(*previous, s)) {

@@ -140,4 +140,9 @@ Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint
     return b;
 }
 
+bool may_be_smooth(const Material& m) {
+    return sqr(m.roughness) < smooth_alpha || m.metallic_roughness_texture.used() ||
+           std::abs(m.ior - 1) < 1e-3f;
+}
+
 }  // namespace midway

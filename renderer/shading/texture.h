@@ -42,4 +42,8 @@ vec3 material_emission(const Material& m, const TextureSet& textures, const Shad
 
 Bsdf make_bsdf(const Material& m, const TextureSet& textures, const ShadingPoint& point);
 
+// Whether lobes that mirror may be Dirac deltas somewhere: textures can only lower the roughness
+// below its factor.
+bool may_be_smooth(const Material& m);
+
 }  // namespace midway

@@ -61,8 +61,11 @@ std::string why(const Scene& scene, const std::string& what) {
 }
 
 TEST(LeaveOuts, DoneAllTheSameChangeNoBit) {
-    const NeedlessWork works[] = {
-        {.attributes = true}, {.attributes = true, .textures = true}, {.lights = true}};
+    const NeedlessWork works[] = {{.attributes = true},
+                                  {.attributes = true, .textures = true},
+                                  {.lights = true},
+                                  {.sky = true},
+                                  {.transmission = true}};
     for (const SceneDescription& d : {plain_room(), mirror_room(), bulb_room()}) {
         const auto scene = build(d);
         for (const Technique t : {Technique::path, Technique::bdpt}) {
@@ -74,6 +77,17 @@ TEST(LeaveOuts, DoneAllTheSameChangeNoBit) {
             }
         }
     }
+}
+
+// Else the same bits would say nothing.
+TEST(LeaveOuts, WhatIsNeedlessIsThere) {
+    const SceneDescription d = bulb_room();
+    EXPECT_LT(build(d)->sky_light, 0);
+    EXPECT_GE(build_with(d, {.sky = true})->sky_light, 0);
+    for (const Material& m : build_with(d, {.transmission = true})->materials)
+        EXPECT_EQ(1, m.transmission);
+    for (const Material& m : build_with(d, {.textures = true})->materials)
+        EXPECT_TRUE(m.base_color_texture.used());
 }
 
 TEST(LeaveOuts, FamiliesDoneAllTheSameChangeNoBit) {
@@ -282,8 +296,8 @@ TEST(Cost, MeasuresEveryThingThatCanBeTurnedOn) {
     const auto rows = measure_cost(p, s, {.threads = 1, .rounds = 2, .seconds = 0});
     std::map<std::string, LeaveOutCost> by_name;
     for (const LeaveOutCost& row : rows) by_name[row.what] = row;
-    for (const char* what :
-         {"textures", "texture coordinates", "transparency", "strategy images"}) {
+    for (const char* what : {"textures", "texture coordinates", "transparency",
+                             "lights at infinity", "strategy images"}) {
         ASSERT_TRUE(by_name.contains(what)) << what;
         EXPECT_TRUE(by_name[what].same_bits) << what;
         EXPECT_EQ(1, by_name[what].mean_ratio) << what;
@@ -300,7 +314,7 @@ TEST(Cost, MeasuresEveryThingThatCanBeTurnedOn) {
         EXPECT_NEAR(by_name[what].mean_ratio, 1, 0.05) << what;
     }
     EXPECT_FALSE(by_name.contains("light tracing"));
-    EXPECT_EQ(9u, rows.size());
+    EXPECT_EQ(10u, rows.size());
     for (const LeaveOutCost& row : rows) {
         EXPECT_GT(row.left_out.median, 0) << row.what;
         EXPECT_GT(row.done.median, 0) << row.what;
