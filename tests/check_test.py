@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The group `style`: the tree obeys check_includes.py and check_style.py, and both see what they
-should: every rule is broken once in a tree made for it."""
+"""The group `style`: the tree obeys check_includes.py, check_names.py and check_style.py, and they see
+what they should: every rule is broken once in a tree made for it."""
 
 import sys
 import tempfile
@@ -8,6 +8,7 @@ import unittest
 from pathlib import Path
 
 import check_includes
+import check_names
 import check_style
 from support import counted
 
@@ -27,6 +28,9 @@ def found(check, files):
 class TheTree(unittest.TestCase):
     def test_includes_point_left(self):
         self.assertEqual([], check_includes.violations(ROOT))
+
+    def test_names_are_given_once(self):
+        self.assertEqual([], check_names.violations(ROOT))
 
     def test_obeys_the_house_rules(self):
         self.assertEqual([], check_style.violations(ROOT))
@@ -95,6 +99,24 @@ class IncludeRules(unittest.TestCase):
 
     def test_a_folder_without_a_layer_is_found(self):
         self.assertTrue(self.broken_by("renderer/misc/x.cpp", ""))
+
+
+class NameRules(unittest.TestCase):
+    def count(self, first, second):
+        return len(found(check_names, {"renderer/a/x.h": first, "app/viewer/y.cpp": second}))
+
+    def test_a_type_of_two_files_is_found(self):
+        for kind in ["struct A ", "class A final ", "enum A ", "enum class A : int ", "union A "]:
+            self.assertEqual(1, self.count("namespace m {\nstruct A {\n};\n}\n",
+                                           "namespace m {\n" + kind + "{\n};\n}\n"), kind)
+
+    def test_what_nobody_else_sees_may_be_called_alike(self):
+        one = "namespace m {\nstruct A {\n};\n}\n"
+        for other in ["namespace m {\nnamespace {\nstruct A {};\n}\n}\n", "namespace n { struct A {}; }",
+                      "namespace m { void f() { struct A {}; } }", "namespace m { struct A::B {}; }",
+                      "namespace m { struct B { struct A {}; }; }", "namespace m { struct A; }",
+                      "// namespace m { struct A {}; }", "namespace m { A f(struct A a) {} }"]:
+            self.assertEqual(0, self.count(one, other), other)
 
 
 class StyleRules(unittest.TestCase):

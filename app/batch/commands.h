@@ -1,5 +1,5 @@
 // The commands of the program `midway`. Each adds its options to the command line and is run after
-// parsing; the number it returns is the exit status (DESIGN, section 4).
+// parsing; the number it returns is the exit status (README, "Bad input").
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -54,7 +54,7 @@ Command add_compare_command(CLI::App& app, const std::string& typed) {
     sub.add_option("-o,--output", c->folder, "Folder of the report")->required();
     sub.add_option("--time", c->seconds, "Seconds of rendering, per technique and seed")
         ->check(positive_number());
-    sub.add_option("--techniques", c->techniques, "Of path, light, bdpt:EXPONENT")
+    sub.add_option("--techniques", c->techniques, "Of path, light, bdpt, bdpt:EXPONENT, auto")
         ->delimiter(',')
         ->capture_default_str();
     sub.add_option("--seeds", c->seeds, "Independent runs of each technique: they give the bands")

@@ -39,7 +39,7 @@ struct LoadedReference {
     std::string refusal;             // why the live image is not measured against it; empty: it is
 };
 
-struct Comparison {
+struct CompareState {
     std::vector<KeptImage> kept;  // oldest first
     std::uint64_t next_id = 1;
     std::optional<std::uint64_t> chosen;  // which is A: an id, or reference_id
@@ -55,7 +55,7 @@ struct Comparison {
     std::uint64_t live_job = 0;
     CurveMaker maker;  // of the snapshot, but for the exponent
 
-    std::vector<ErrorCurve> curves;
+    std::vector<LiveCurve> curves;
     std::optional<Subject> curves_subject;
     std::uint64_t curves_since = 0;  // the first job of that subject
     std::string dropped;             // why the curves before were dropped

@@ -58,7 +58,7 @@ std::string size_refusal(const LoadedReference& r, const Subject& now) {
 
 // Says whether the reference can serve the image in view; binds it to the first that it fits.
 void follow_reference(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (!c.reference || !c.live) return;
     LoadedReference& r = *c.reference;
     const auto place = place_of(*r.reference, *c.live);
@@ -84,9 +84,9 @@ bool take_reference(App& app, Engine& engine) {
         loaded.swap(engine.comparing.inbox->loaded);
     }
     if (!loaded) return false;
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     c.reference = std::move(loaded);
-    for (ErrorCurve& curve : c.curves)
+    for (LiveCurve& curve : c.curves)
         for (CurvePoint& p : curve.points) p.measured.reset();
     c.metric = ErrorMetric::relmse;
     follow_reference(app);
@@ -95,13 +95,13 @@ bool take_reference(App& app, Engine& engine) {
     return true;
 }
 
-std::shared_ptr<const Reference> usable_reference(const Comparison& c) {
+std::shared_ptr<const Reference> usable_reference(const CompareState& c) {
     return c.reference && c.reference->refusal.empty() ? c.reference->reference : nullptr;
 }
 
 bool take_measurements(App& app, Engine& engine) {
     bool news = false;
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     while (const std::optional<Measurement> m = engine.comparing.meter.take()) {
         engine.comparing.cost = m->seconds;
         if (!m->error.empty()) app.document.error = m->error;
@@ -121,7 +121,7 @@ bool take_measurements(App& app, Engine& engine) {
 
 // Takes note of what the snapshot is of; curves of another image are dropped, and it is said why.
 void follow_job(App& app, const SubmittedJob& job) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (c.live && c.live_job == job.number) return;
     c.live_job = job.number;
     c.live = subject_of(*job.prepared, job.settings);
@@ -179,7 +179,7 @@ void check_finite(const Reference& r, const std::string& path) {
 }  // namespace
 
 void keep_image(App& app, Engine& engine, const std::string& name) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (!app.document.prepared)
         throw std::runtime_error("nothing to keep (window); open a scene first");
     if (c.kept.size() >= most_kept)
@@ -196,7 +196,7 @@ void keep_image(App& app, Engine& engine, const std::string& name) {
     c.kept.push_back(std::move(k));
 }
 
-void forget_image(Comparison& c, std::uint64_t id) {
+void forget_image(CompareState& c, std::uint64_t id) {
     std::erase_if(c.kept, [&](const KeptImage& k) { return k.id == id; });
     if (c.chosen == id) c.chosen.reset();
     if (!c.chosen) c.view = CompareView::live;
@@ -211,10 +211,10 @@ void load_reference_file(App& app, Engine& engine, const std::string& path) {
         inbox->loaded.reset();
     }
     if (path.empty()) {
-        Comparison& c = app.compare;
+        CompareState& c = app.compare;
         if (c.chosen == reference_id) forget_image(c, reference_id);
         c.reference.reset();
-        for (ErrorCurve& curve : c.curves)
+        for (LiveCurve& curve : c.curves)
             for (CurvePoint& p : curve.points) p.measured.reset();
         return;
     }
@@ -228,7 +228,7 @@ void load_reference_file(App& app, Engine& engine, const std::string& path) {
 }
 
 void use_reference_here(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (!c.reference || !c.live) return;
     const auto place = place_of(*c.reference->reference, *c.live);
     if (!place) return;

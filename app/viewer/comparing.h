@@ -40,7 +40,7 @@ struct ComparingEngine {
 // Keeps what is shown as A under this name (empty: one that says what it is), or does so at its
 // first whole pass. Throws where there is no image, or no room for one more.
 void keep_image(App& app, Engine& engine, const std::string& name);
-void forget_image(Comparison& comparison, std::uint64_t id);
+void forget_image(CompareState& comparison, std::uint64_t id);
 
 // Reads a reference beside the window; an empty path puts away the one there is.
 void load_reference_file(App& app, Engine& engine, const std::string& path);

@@ -37,7 +37,7 @@ const vec3* texel(const Image& image, const dvec2& origin, double scale, const i
 }  // namespace
 
 const KeptImage* image_a(const App& app) {
-    const Comparison& c = app.compare;
+    const CompareState& c = app.compare;
     if (!c.chosen) return nullptr;
     if (*c.chosen == reference_id)
         return c.reference && c.reference->shown ? &*c.reference->shown : nullptr;
@@ -82,7 +82,7 @@ std::string caption_b(const App& app) {
                        s.passes == 1 ? "" : "s");
 }
 
-size_t kept_bytes(const Comparison& c) {
+size_t kept_bytes(const CompareState& c) {
     size_t bytes = 0;
     for (const KeptImage& k : c.kept) bytes += k.image->pixels.size() * sizeof(vec3);
     return bytes;
@@ -91,7 +91,7 @@ size_t kept_bytes(const Comparison& c) {
 CompareLook compare_look(const App& app) {
     const CompareView view = view_in_use(app);
     if (view == CompareView::live) return {};
-    const Comparison& c = app.compare;
+    const CompareState& c = app.compare;
     CompareLook look{view, image_a(app)->image.get()};
     if (view == CompareView::wipe) look.wipe = c.wipe;
     if (view == CompareView::difference) {
@@ -104,7 +104,7 @@ CompareLook compare_look(const App& app) {
 void show_comparison(const App& app, ShownImage& shown) {
     const CompareView view = view_in_use(app);
     if (view == CompareView::live) return;
-    const Comparison& c = app.compare;
+    const CompareState& c = app.compare;
     const KeptImage& a = *image_a(app);
     if (view == CompareView::kept) return show_kept(*c.live, a, shown);
     shown.other = a.image;

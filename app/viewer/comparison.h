@@ -26,7 +26,7 @@ std::string caption_a(const App& app);
 std::string caption_b(const App& app);
 
 // Bytes that the kept images take.
-size_t kept_bytes(const Comparison& comparison);
+size_t kept_bytes(const CompareState& comparison);
 
 // All that a comparison's look depends on besides the snapshot and DisplayChoices.
 struct CompareLook {

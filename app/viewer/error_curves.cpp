@@ -13,21 +13,20 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Values that a slider passes on its way leave short curves that say nothing.
-bool is_in_passing(const ErrorCurve& c) {
+bool is_in_passing(const LiveCurve& c) {
     const double b = c.maker.exponent;
     return c.points.size() < 3 && b != 0 && b != 1 && b != 2;
 }
 
-ErrorCurve& begin_curve(std::vector<ErrorCurve>& curves, const CurveMaker& maker,
-                        std::uint64_t job) {
+LiveCurve& begin_curve(std::vector<LiveCurve>& curves, const CurveMaker& maker, std::uint64_t job) {
     // Exponents of the same paths belong to one job.
-    std::erase_if(curves, [&](const ErrorCurve& c) { return c.job != job && is_in_passing(c); });
+    std::erase_if(curves, [&](const LiveCurve& c) { return c.job != job && is_in_passing(c); });
     if (curves.size() >= most_curves) curves.erase(curves.begin());
     curves.push_back({maker, curve_label(maker), job, {}});
     return curves.back();
 }
 
-bool lacks_reference(const ErrorCurve& c) {
+bool lacks_reference(const LiveCurve& c) {
     return std::any_of(c.points.begin(), c.points.end(),
                        [](const CurvePoint& p) { return !p.measured; });
 }
@@ -59,12 +58,12 @@ std::string curve_label(const CurveMaker& m) {
     return label;
 }
 
-void add_point(std::vector<ErrorCurve>& curves, const CurveMaker& maker, std::uint64_t job,
+void add_point(std::vector<LiveCurve>& curves, const CurveMaker& maker, std::uint64_t job,
                const CurvePoint& point) {
     const std::string label = curve_label(maker);
     const auto found = std::find_if(curves.begin(), curves.end(),
-                                    [&](const ErrorCurve& c) { return c.label == label; });
-    ErrorCurve& c = found != curves.end() ? *found : begin_curve(curves, maker, job);
+                                    [&](const LiveCurve& c) { return c.label == label; });
+    LiveCurve& c = found != curves.end() ? *found : begin_curve(curves, maker, job);
     if (c.job != job && point.measured && lacks_reference(c)) c.points.clear();
     c.job = job;
     add_to(c.points, point);
@@ -77,16 +76,16 @@ double value_of(const CurvePoint& p, ErrorMetric metric) {
     return metric == ErrorMetric::trimmed ? p.measured->relmse_trimmed : p.measured->bias;
 }
 
-const ErrorCurve* find_curve(const std::vector<ErrorCurve>& curves, const std::string& label) {
-    for (const ErrorCurve& c : curves)
+const LiveCurve* find_curve(const std::vector<LiveCurve>& curves, const std::string& label) {
+    for (const LiveCurve& c : curves)
         if (c.label == label) return &c;
     return nullptr;
 }
 
-std::string curves_csv(const std::vector<ErrorCurve>& curves) {
+std::string curves_csv(const std::vector<LiveCurve>& curves) {
     std::string text = error_csv_header();
     text.insert(text.size() - 1, ",relmse_estimated");
-    for (const ErrorCurve& c : curves)
+    for (const LiveCurve& c : curves)
         for (const CurvePoint& p : c.points) {
             ErrorPoint e{p.seconds, p.cpu_seconds, p.spp};
             e.mse = e.rmse = e.relmse = e.relmse_trimmed = e.smape = e.bias = e.bias_z = unknown;

@@ -29,7 +29,7 @@ struct CurveMaker {
     std::uint64_t seed = 0;
 };
 
-struct ErrorCurve {
+struct LiveCurve {
     CurveMaker maker;
     std::string label;
     std::uint64_t job = 0;  // that added to it last
@@ -50,15 +50,15 @@ std::string curve_label(const CurveMaker& maker);
 // Adds what was measured of a job's image. A job that goes over the same ground as the curve's last
 // one (same bits after the same samples) only goes on where that ended, unless the old points lack
 // what this one has: the curve then begins anew.
-void add_point(std::vector<ErrorCurve>& curves, const CurveMaker& maker, std::uint64_t job,
+void add_point(std::vector<LiveCurve>& curves, const CurveMaker& maker, std::uint64_t job,
                const CurvePoint& point);
 
 // NaN where unknown; the bias with its sign.
 double value_of(const CurvePoint& point, ErrorMetric metric);
 
-const ErrorCurve* find_curve(const std::vector<ErrorCurve>& curves, const std::string& label);
+const LiveCurve* find_curve(const std::vector<LiveCurve>& curves, const std::string& label);
 
 // As convergence.csv, and the estimate in a column of its own.
-std::string curves_csv(const std::vector<ErrorCurve>& curves);
+std::string curves_csv(const std::vector<LiveCurve>& curves);
 
 }  // namespace midway

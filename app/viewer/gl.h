@@ -44,13 +44,11 @@ namespace midway {
     X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
     X(PFNGLGENTEXTURESPROC, GenTextures)                         \
     X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
-    X(PFNGLGETERRORPROC, GetError)                               \
     X(PFNGLGETINTEGERVPROC, GetIntegerv)                         \
     X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
     X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
-    X(PFNGLGETSTRINGPROC, GetString)                             \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \

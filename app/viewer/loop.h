@@ -45,7 +45,7 @@ struct Loop {
 
     Engine::Clock::time_point start = Engine::Clock::now();
     Engine::Clock::time_point last_frame = start;  // when it began
-    Mark mark;
+    ReportMark mark;
     ivec2 size{0};         // of the framebuffer
     int frames_due = 3;    // ImGui answers an event within three frames
     int frames_left = -1;  // of options.frames

@@ -82,7 +82,7 @@ size_t color_of(const CurveMaker& m, size_t& next) {
     return next++;
 }
 
-std::string title_of(const Comparison& c, ErrorMetric metric) {
+std::string title_of(const CompareState& c, ErrorMetric metric) {
     const std::string file =
         c.reference ? c.reference->path.substr(c.reference->path.find_last_of('/') + 1) : "";
     switch (metric) {
@@ -100,11 +100,11 @@ std::string title_of(const Comparison& c, ErrorMetric metric) {
 
 }  // namespace
 
-Plot make_plot(const Comparison& c, ErrorMetric metric) {
+Plot make_plot(const CompareState& c, ErrorMetric metric) {
     if (!c.reference) metric = ErrorMetric::estimate;
     Plot plot{title_of(c, metric), {}, metric == ErrorMetric::bias};
     size_t next_color = 5;
-    for (const ErrorCurve& curve : c.curves) {
+    for (const LiveCurve& curve : c.curves) {
         PlotSeries s{
             curve.label, color_of(curve.maker, next_color), curve.job == c.live_job, {}, {}};
         // Not a sampler or a seed beside the usual one in the same colour.

@@ -12,7 +12,7 @@ namespace midway {
 
 struct PlotSeries {
     std::string label;
-    size_t color = 0;            // index into plot_colours, and of the mark
+    size_t color = 0;            // number of its colour, and of its mark
     bool current = false;        // the one that grows now
     std::vector<CurvePoint> of;  // what each value was made from
     std::vector<dvec2> values;   // seconds, error; NaN where unknown
@@ -25,7 +25,7 @@ struct Plot {
 };
 
 // The curves of one metric; series without any value of it are there, too, and empty.
-Plot make_plot(const Comparison& comparison, ErrorMetric metric);
+Plot make_plot(const CompareState& comparison, ErrorMetric metric);
 
 struct PlotTick {
     float at = 0;       // x or y

@@ -85,7 +85,7 @@ Json inspector_json(const InspectorState& s) {
 }
 
 Json comparison_json(const App& app) {
-    const Comparison& c = app.compare;
+    const CompareState& c = app.compare;
     constexpr const char* views[] = {"b", "a", "wipe", "difference"};
     Json j{{"asked", views[static_cast<int>(c.view)]},
            {"shown", views[static_cast<int>(view_in_use(app))]},
@@ -103,9 +103,9 @@ Json comparison_json(const App& app) {
     return j;
 }
 
-Json curves_json(const Comparison& c) {
+Json curves_json(const CompareState& c) {
     Json list = Json::array();
-    for (const ErrorCurve& curve : c.curves) {
+    for (const LiveCurve& curve : c.curves) {
         Json points = Json::array();
         for (const CurvePoint& p : curve.points) {
             Json point{{"seconds", p.seconds}, {"spp", p.spp}, {"estimate", p.estimate}};
@@ -148,11 +148,11 @@ Json pyramid(const App& app) {
 
 }  // namespace
 
-Mark mark_now(App& app) {
+ReportMark mark_now(App& app) {
     app.timings.frames.clear();
     app.timings.edit_to_image.clear();
     app.timings.stops.clear();
-    Mark mark;
+    ReportMark mark;
     if (app.snapshot) {
         mark.samples = double(app.snapshot->passes);
         mark.job = app.snapshot->job;
@@ -160,8 +160,8 @@ Mark mark_now(App& app) {
     return mark;
 }
 
-void write_report(const std::string& path, const App& app, const Mark& mark) {
-    const Mark now;
+void write_report(const std::string& path, const App& app, const ReportMark& mark) {
+    const ReportMark now;
     const double wall = std::chrono::duration<double>(now.time - mark.time).count();
     Json j;
     j["scene"] = app.document.path;

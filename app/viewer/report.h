@@ -11,17 +11,17 @@
 namespace midway {
 
 // Where `mark` began.
-struct Mark {
+struct ReportMark {
     std::chrono::steady_clock::time_point time = std::chrono::steady_clock::now();
     double cpu_seconds = double(std::clock()) / CLOCKS_PER_SEC;  // of the whole process
     double samples = 0;                                          // per pixel, of the job then
     std::uint64_t job = 0;
 };
 
-Mark mark_now(App& app);  // forgets the timings but for the first pixels
+ReportMark mark_now(App& app);  // forgets the timings but for the first pixels
 
 // Throws std::runtime_error where the file cannot be written.
-void write_report(const std::string& path, const App& app, const Mark& mark);
+void write_report(const std::string& path, const App& app, const ReportMark& mark);
 
 // Adds to a list of bounded length.
 void note_time(std::vector<float>& list, double seconds);

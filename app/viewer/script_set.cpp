@@ -151,7 +151,7 @@ Change set_stops(App& app, Text key, Text value) {
 
 // The kept image of this name or number (counted from 1) is A, or the reference.
 Change set_compare_with(App& app, Text key, Text value) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (value == "reference") {
         c.chosen = reference_id;
         return display;
@@ -169,7 +169,7 @@ Change set_difference(App& app, Text key, Text value) {
     const size_t colon = value.find(':');
     const std::string kind = value.substr(0, colon);
     if (kind != "absolute" && kind != "relative") refuse(key, value, "use absolute or relative");
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     c.relative = kind == "relative";
     if (colon != std::string::npos)
         (c.relative ? c.relative_range : c.range) =

@@ -70,7 +70,7 @@ struct RenderChoices {
 // it is the file's (document.prepared->camera).
 struct CameraChoices {
     dvec3 pivot{0};          // what orbiting turns about
-    bool moving = false;     // a drag or a flight is under way: resolution may drop
+    bool moving = false;     // a drag or a flight is under way
     bool animating = false;  // a glide or a flight: draw again without waiting for an event
     struct Bookmark {
         std::string name;
@@ -153,7 +153,7 @@ struct App {
     RenderChoices render;
     CameraChoices camera;
     DisplayChoices display;
-    Comparison compare;
+    CompareState compare;
     Ui ui;
     std::shared_ptr<const Snapshot> snapshot;         // the newest; null before the first
     std::shared_ptr<const ChannelSnapshot> channels;  // albedo ... while one is shown

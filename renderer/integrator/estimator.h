@@ -1,5 +1,5 @@
 // The estimators: `path`, `light` and `bdpt` of any exponent are one estimator with different
-// families of strategies (DESIGN, section 2). A sample is a camera subpath together with a light
+// families of strategies (README, "The method"). A sample is a camera subpath together with a light
 // subpath, and
 //   s >= 2, t = 0   the camera walk hits a light         (seed, case 2)
 //   s >= 2, t = 1   next event                           (case 3)
@@ -67,7 +67,8 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& lig
 template <Facts F = no_facts>
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& walk, Reached reached);
 
-// Walks the light subpath; every vertex is splatted, connectible vertices are kept.
+// Walks the light subpath; its connectible vertices are splatted and kept, where families ask for
+// it.
 template <Facts F = no_facts, class Record>
 void trace_light_subpath(const Estimator& e, std::uint64_t subpath, std::uint64_t pass,
                          LightSubpath& vertices, Record& record, RayCounts& rays) {

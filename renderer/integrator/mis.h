@@ -9,10 +9,10 @@
 // at vertex i-1 and p_sigma,i-2 the reverse density per solid angle from i-1 to i-2. A strategy is
 // then weighed by the four cases (26)-(33).
 //
-// Beyond the seed: a term counts only if its strategy is *feasible* (DESIGN, section 2), which is
-// how families, delta vertices and delta lights enter; next event and emission may have different
-// densities; not every camera sample needs to have connections, so they have an n of their own;
-// x^b of a zero density is zero for every b, also 0.
+// Beyond the seed: a term counts only if its strategy is *feasible* (README, "The method"), which
+// is how families, delta vertices and delta lights enter; next event and emission may have
+// different densities; not every camera sample needs to have connections, so they have an n of
+// their own; x^b of a zero density is zero for every b, also 0.
 //
 // The renderer computes all of it in double. A heuristic names its number type `Real`, so that the
 // audit can run the same lines in float and show where they would have failed.
@@ -141,7 +141,7 @@ struct LightStart {
     double pdf_a = 0;             // p_1
     double g_light = 0;           // g_0
     double next_event_ratio = 1;  // r
-    bool hittable = true;         // in this scene, by families in use
+    bool hittable = true;         // in this scene, by the families that the weights count
 };
 template <class H>
 State start_light(const H& h, const LightStart& l) {

@@ -41,7 +41,7 @@ struct Estimator {
     std::array<double, max_exponents> exponents{2};
     int exponent_count = 1;
     // The families that the weights of each exponent count: those in use, but for a pilot that asks
-    // how others would have weighed the same paths (render/pilot.h).
+    // how others would have weighed the same paths (render/pilot_sums.h).
     std::array<Families, max_exponents> weighed;
     int max_bounces = 16;
     std::uint64_t seed = 0;
@@ -50,9 +50,9 @@ struct Estimator {
     std::uint64_t light_subpaths = 1;
     // n of connections: the share of the camera samples that meet a light subpath to connect to.
     double connection_share = 1;
-    // What counts of them where light tracing competes with next event for direct light, paths of
-    // two edges: n there is light_subpaths times this. A camera sample's share of a pixel is
-    // stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
+    // What counts of light_subpaths where light tracing competes with next event for direct light,
+    // paths of two edges: n there is light_subpaths times this. A camera sample's share of a pixel
+    // is stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
     // Slusallek and Krivanek 2019, "Variance-aware multiple importance sampling"). See
     // direct_share() in render/settings.h. Zero: light tracing does not make such paths.
     double direct_share = 1;

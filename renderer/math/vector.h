@@ -15,7 +15,6 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::dvec4;
 using glm::ivec2;
-using glm::mat3;
 using glm::uvec3;
 using glm::vec2;
 using glm::vec3;

@@ -1,5 +1,5 @@
 // Which paths a scene can have, which families of strategies can make them, and which no strategy
-// of a technique can (DESIGN, section 2: a technique covers a path if one of its strategies is
+// of a technique can (a technique covers a path if one of its strategies is
 // feasible). Found from what is in the scene, before any sample.
 #pragma once
 

@@ -185,14 +185,20 @@ FilmFile read_film(const std::string& path) {
     return file;
 }
 
-void check_same_render(const FilmHeader& a, const FilmHeader& b) {
+std::string render_difference(const FilmHeader& a, const FilmHeader& b) {
     if (a.scene_hash != b.scene_hash || a.settings != b.settings || a.exponents != b.exponents ||
         a.unit_exponent != b.unit_exponent || a.width != b.width || a.height != b.height)
-        throw std::runtime_error("films come from different scenes or settings (" + b.scene +
-                                 "); use films of one render");
+        return "films come from different scenes or settings (" + b.scene +
+               "); use films of one render";
     if (a.version != b.version || a.instruction_set != b.instruction_set)
-        throw std::runtime_error("films were made by different programs (" + b.version + ", " +
-                                 b.instruction_set + "); use one build on all machines");
+        return "films were made by different programs (" + b.version + ", " + b.instruction_set +
+               "); use one build on all machines";
+    return {};
+}
+
+void check_same_render(const FilmHeader& a, const FilmHeader& b) {
+    const std::string difference = render_difference(a, b);
+    if (!difference.empty()) throw std::runtime_error(difference);
 }
 
 void merge_film(FilmFile& into, const FilmFile& from) {

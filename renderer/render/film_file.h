@@ -45,6 +45,9 @@ void write_film(const std::string& path, const FilmHeader& header,
                 const ProgressiveRenderer& renderer);
 FilmFile read_film(const std::string& path);
 
+// Empty where two films belong to one render, else what tells them apart and what to do.
+std::string render_difference(const FilmHeader& a, const FilmHeader& b);
+
 // Throws where two films do not belong to one render.
 void check_same_render(const FilmHeader& a, const FilmHeader& b);
 

@@ -2,11 +2,11 @@
 
 #include <exception>
 
+#include "render/live_pace.h"
+
 namespace midway {
 namespace {
 
-constexpr double first_image_budget = 0.02;  // seconds
-constexpr auto protected_age = std::chrono::milliseconds(50);
 constexpr int final_samples = 16;
 
 }  // namespace

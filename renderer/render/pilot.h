@@ -1,9 +1,9 @@
 // How `auto` finds out what a scene needs. 65,536 samples of bidirectional path tracing that
-// never enter an image tell what each way to render it, a *plan*, would cost and how noisy it would
-// be; the plan with the smallest error x time is taken. A plan is a choice of families and of light
-// subpaths per pixel: none, so that what is left is a path tracer; light tracing alone, from a
-// quarter of a subpath to two per pixel; connections too, for a quarter of the camera samples or
-// more.
+// never enter an image (once more where plans differ in their roulette) tell what each way to
+// render it, a *plan*, would cost and how noisy it would be; the plan with the smallest error x
+// time is taken. A plan is a choice of families and of light subpaths per pixel: none, so that what
+// is left is a path tracer; light tracing alone, from a quarter of a subpath to two per pixel;
+// connections too, for a quarter of the camera samples or more.
 //
 // Of every path that the pilot finds, the balance heuristic's densities are known for all
 // strategies, hence also how the strategies of another plan would have shared it: the second moment
@@ -15,8 +15,8 @@
 // samples of the same pixel, correlations included.
 //
 // Costs count rays, each kind at its measured price (pilot.cpp); seconds decide nothing. The
-// decision is a function of scene, camera, image size and bounces alone, so it is the same for any
-// number of threads, on every shard and in the window.
+// decision is a function of scene, camera and settings, but for seed and exponents, so it is the
+// same for any number of threads, on every shard and in the window.
 #pragma once
 
 #include <vector>

@@ -8,8 +8,8 @@
 // has a thumbnail of at most 160 pixels in either direction; one of its pixels is the sum of a box
 // of the image's pixels. A cell that somebody chose has a film of full size besides.
 //
-// Memory: 96 bytes for a pixel of a cell. Thumbnails: 44 cells, at most 108 MB (62 MB at 16:9).
-// Films of full size: as many as 1 GiB holds (12 at 1280 x 720), but always one.
+// Memory: some 96 bytes for a pixel of a cell. Thumbnails: 44 cells, at most 108 MB (62 MB at
+// 16:9). Films of full size: as many as 1 GiB holds (12 at 1280 x 720), but always one.
 #pragma once
 
 #include <array>

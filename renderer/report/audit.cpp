@@ -21,7 +21,7 @@ PathAudit draw(const Estimator& e, const AuditOptions& o, int unit, std::uint64_
                const std::function<void(double)>& tick) {
     const PathSetting setting = path_setting(e);
     PathAudit all(e, unit, o.float_recursion);
-    const auto run = [&](const PassRange& range) {
+    const auto run = [&](const AuditPasses& range) {
         std::vector<PathAudit> sums(worker_count(o.threads), PathAudit(e, unit, o.float_recursion));
         for_each_sample(
             e.crop, range, sums,

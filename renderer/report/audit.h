@@ -4,8 +4,7 @@
 //   same pdfs   the weights by recursion (integrator/mis.h) against the direct product form in long
 //               double logarithms, given the same densities; their sum over all strategies
 //   own pdfs    the sum of the weights when each strategy evaluates the densities from its own
-//   side,
-//               in float geometry: what it misses one by is bias in the image
+//               side, in float geometry: what it misses one by is bias in the image
 //   ranges      densities and partial sums, and how far from overflow
 //   rays        self-hits and leaks, found by tracing back from what was hit
 //   samples     the largest contribution, the share of the brightest, what is not finite

@@ -161,7 +161,7 @@ RayAudit audit_rays(const Estimator& e, const RayAuditOptions& options) {
     RayAudit all;
     if (options.rays <= 0) return all;
     const auto closed = closed_meshes(*e.scene, most_closed_meshes);
-    const auto draw = [&](const PassRange& passes, const std::function<void(double)>& tick) {
+    const auto draw = [&](const AuditPasses& passes, const std::function<void(double)>& tick) {
         std::vector<RayAudit> sums(worker_count(options.threads));
         for_each_sample(
             e.crop, passes, sums,

@@ -16,7 +16,7 @@
 
 namespace midway {
 
-struct PassRange {
+struct AuditPasses {
     std::uint64_t first = 0, end = 0;
 };
 
@@ -28,7 +28,7 @@ inline int worker_count(int threads) {
 // Calls sample(sums[worker], x, y, pass) for every pixel of the crop and every pass; `tick` about
 // ten times a second with the share done.
 template <class Sums, class Sample>
-void for_each_sample(const PixelRect& crop, const PassRange& passes, std::vector<Sums>& sums,
+void for_each_sample(const PixelRect& crop, const AuditPasses& passes, std::vector<Sums>& sums,
                      const Sample& sample, const std::function<void(double)>& tick = {}) {
     const auto rows = static_cast<std::uint64_t>(crop.height());
     const std::uint64_t items = (passes.end - passes.first) * rows;

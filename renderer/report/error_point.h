@@ -1,5 +1,5 @@
 // Error of one image against a reference, at one moment of its render: a point of a convergence
-// curve and a row of convergence.csv (DESIGN, section 4).
+// curve and a row of convergence.csv.
 #pragma once
 
 #include <cstdint>

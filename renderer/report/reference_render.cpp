@@ -85,16 +85,19 @@ struct Part {
     std::unique_ptr<ProgressiveRenderer> renderer;
 };
 
-// All films as they were kept; false where one is missing or of another render.
+// All films as they were kept; false where one is missing or of another render (where `auto` has
+// been taught to choose another plan, say).
 bool adopt_all(const ReferencePlan& plan, const std::string& path, std::vector<Part>& parts) {
-    for (int i = 0; i < int(parts.size()); ++i)
-        if (!std::filesystem::exists(film_path(path, i))) return false;
+    std::vector<FilmFile> films;
     for (int i = 0; i < int(parts.size()); ++i) {
-        FilmFile film = read_film(film_path(path, i));
-        check_same_render(film_header(*plan.scene, parts[i].settings, *parts[i].renderer),
-                          film.header);
-        const std::uint64_t passes = pass_counts(film.header).total();
-        parts[i].renderer->adopt(std::move(film.films), passes);
+        if (!std::filesystem::exists(film_path(path, i))) return false;
+        films.push_back(read_film(film_path(path, i)));
+        const FilmHeader own = film_header(*plan.scene, parts[i].settings, *parts[i].renderer);
+        if (!render_difference(own, films.back().header).empty()) return false;
+    }
+    for (int i = 0; i < int(parts.size()); ++i) {
+        const std::uint64_t passes = pass_counts(films[i].header).total();
+        parts[i].renderer->adopt(std::move(films[i].films), passes);
     }
     return true;
 }

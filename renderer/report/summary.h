@@ -1,4 +1,4 @@
-// Files of a comparison beside its report: DIR/convergence.csv (DESIGN, section 4),
+// Files of a comparison beside its report: DIR/convergence.csv,
 // DIR/summary.json (everything but the images and the points), DIR/images/*.exr (the reference,
 // with its variance as a layer so that it can be given again, and the last image of the first seed
 // of each technique); and of a suite: DIR/table.md, DIR/summary.json. Files appear whole or not at

@@ -2,7 +2,7 @@
 // ends of a path: emission (light subpaths), next event (a point chosen for a surface) and hits.
 //
 // Every interface reports the same three densities, so that any strategy's pdf can be formed
-// (DESIGN, section 2; seed, eq. 24-38). For a finite light the *origin* is the point on the light
+// (eq. 24-38; README, "The method"). For a finite light the *origin* is the point on the light
 // and the *leave* density is that of the direction; for an infinite light the origin is the
 // direction (eq. 35) and the leave density that of the place on the bounding disc (eq. 38):
 //                        finite                          infinite

@@ -3,8 +3,8 @@
 // Tree Splitting"). From the root down, one of up to eight children is taken in proportion to a
 // guess at what its lights send to the reference point: power, over the distance squared, times a
 // bound on the cosine at the lights. The guess knows neither what is in the way nor how the surface
-// scatters, so a share of the picks goes by power alone. Densities in the MIS weights need the same
-// product for a light that somebody else found: probability() walks down the same way.
+// scatters, so a share of the picks goes by weight alone. Densities in the MIS weights need the
+// same product for a light that somebody else found: probability() walks down the same way.
 //
 // The shape of the tree follows from places and directions alone, so that it survives edits of how
 // strongly lights shine, and every edit ends at the tree that loading would have built.

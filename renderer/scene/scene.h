@@ -63,8 +63,6 @@ struct NeedlessWork {
     bool transmission = false;  // opaque materials let light through by a black texture
 };
 
-// Throws std::runtime_error with one line for a scene that cannot be traced. Lines for things that
-// were mended or left out are appended to `warnings`.
 struct BuildOptions {
     // A scene built from the same meshes and instances: its geometry and tree are shared where the
     // materials allow it. Built without needless work.
@@ -72,6 +70,9 @@ struct BuildOptions {
     bool normalise = true;  // false: traced in the file's coordinates, for tests
     NeedlessWork needless = {};
 };
+
+// Throws std::runtime_error with one line for a scene that cannot be traced. Lines for things that
+// were mended or left out are appended to `warnings`.
 Scene build_scene(const SceneDescription& description, std::vector<std::string>& warnings,
                   const BuildOptions& options = {});
 

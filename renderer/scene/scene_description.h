@@ -46,7 +46,7 @@ struct PunctualLight {
     float intensity = 1;
     float inner_cone_angle = 0;              // radians, spot only
     float outer_cone_angle = 0.7853981634f;  // radians, spot only, above inner, at most pi/2
-    float range = 0;                         // metres; 0: unlimited
+    float range = 0;  // of the file, and not applied: light goes on as it does
     dmat4 to_world{1.0};
 };
 
@@ -55,7 +55,7 @@ struct CameraDescription {
     std::string name;
     double yfov = 0.7;                   // radians, vertical
     std::optional<double> aspect_ratio;  // of the file, width / height
-    double aperture_radius = 0;          // of the thin lens, in scene units; 0: pinhole
+    double aperture_radius = 0;          // of the thin lens, in the file's units; 0: pinhole
     double focus_distance = 0;           // along the view axis; 0 with a lens: the bounds' centre
     dmat4 to_world{1.0};
 };
@@ -74,7 +74,7 @@ struct SceneDescription {
     std::string source;  // path of the file
     std::string generator;
     std::vector<std::shared_ptr<const Mesh>> meshes;  // none is null; shared by edited copies
-    std::vector<Material> materials;  // never empty once an instance exists
+    std::vector<Material> materials;                  // never empty once an instance exists
     std::vector<std::shared_ptr<const TextureImage>> images;
     std::vector<Instance> instances;
     std::vector<PunctualLight> lights;

@@ -1,5 +1,5 @@
 // Materials and textures as glTF 2.0 defines them (metallic-roughness with the KHR extensions named
-// below), plain data. evaluate_material() in shading/bsdf.h turns one into a Bsdf at a point.
+// below), plain data. make_bsdf() in shading/texture.h turns one into a Bsdf at a point.
 #pragma once
 
 #include <array>

@@ -77,6 +77,14 @@ class Compare(CliTest):
         self.assertEqual(first, rows[:len(first)])
         self.assertGreater(len(rows), len(old))
 
+    def test_a_kept_reference_of_another_render_is_rendered_again(self):
+        self.short()
+        first, second = sorted((self.out / "references").glob("*.film"))[:2]
+        kept = second.read_bytes()
+        first.write_bytes(kept)  # of another seed
+        self.short()
+        self.assertNotEqual(kept, first.read_bytes())
+
     def test_another_setting_starts_anew_and_says_so(self):
         self.short()
         told = self.short("--max-bounces", 2).stderr

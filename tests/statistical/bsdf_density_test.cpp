@@ -23,7 +23,7 @@ vec3 looking_from(const Bsdf& b, float cosine) {
     return frame_from_normal(b.ng).to_world(direction_from_z(cosine, 0.17f));
 }
 
-// Probability per solid angle before the Dirac factors that finish_delta describes are put in.
+// Probability per solid angle without the Dirac factors.
 double delta_probability(const Bsdf& b, const BsdfSample& s, const vec3& from) {
     const bool crosses = glm::dot(from, b.ng) * glm::dot(s.to, b.ng) < 0;
     const float eta = !crosses || b.thin ? 1 : glm::dot(from, b.ng) > 0 ? b.eta : 1 / b.eta;

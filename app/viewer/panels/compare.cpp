@@ -41,7 +41,7 @@ bool entry(const std::string& name, bool chosen, bool enabled, const char* toolt
 }
 
 void draw_list(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     std::optional<std::uint64_t> gone;
     for (const KeptImage& k : c.kept) {
         ImGui::PushID(static_cast<int>(k.id));
@@ -68,7 +68,7 @@ void draw_list(App& app) {
 }
 
 void draw_name(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     for (KeptImage& k : c.kept) {
         if (k.id != c.chosen) continue;
         ui::row("Name of A", "What this image is called in the list.");
@@ -78,7 +78,7 @@ void draw_name(App& app) {
 
 Change draw_view(App& app) {
     Change change;
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     const bool possible = image_a(app) != nullptr;
     const bool laid_over = possible && view_refusal(app).empty();
     const std::array<ui::Choice, 4> views = {{
@@ -155,7 +155,7 @@ Change keep_as_a(App& app) {
 
 Change draw_compare(App& app) {
     if (!ui::begin_section(app, ui::Side::right, "Compare", false)) return {};
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     Change change;
     ImGui::BeginDisabled(!app.document.prepared || c.kept.size() >= most_kept);
     if (ui::wide_button("Keep this image as A",

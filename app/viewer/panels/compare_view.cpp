@@ -89,7 +89,7 @@ Change draw_wipe(App& app) {
 
 // Symmetric scale with five marks.
 void draw_scale(const App& app) {
-    const Comparison& c = app.compare;
+    const CompareState& c = app.compare;
     const float range = c.relative ? c.relative_range : c.range;
     const Rect& v = app.ui.view;
     const float margin = em(0.8f), width = std::min(em(22), v.size().x - 4 * margin);
@@ -131,7 +131,7 @@ void draw_scale(const App& app) {
 
 // Let go after a while: as it was before. After a tap it stays.
 Change follow_flip_key(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (c.flip_pressed < 0 || ImGui::IsKeyDown(GLFW_KEY_Y)) return {};
     const bool held = ImGui::GetTime() - c.flip_pressed > tap_seconds;
     c.flip_pressed = -1;
@@ -141,7 +141,7 @@ Change follow_flip_key(App& app) {
 }  // namespace
 
 Change flip_to_a(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (c.view == CompareView::kept) return choose_compare(app, c.before_flip);
     c.before_flip = c.view;
     return choose_compare(app, CompareView::kept);

@@ -22,7 +22,7 @@ using ui::em;
 
 Change draw_reference_state(App& app) {
     Change change;
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     if (!c.reference) return change;
     const LoadedReference& r = *c.reference;
     const ivec2 size(r.reference->image.width, r.reference->image.height);
@@ -51,7 +51,7 @@ Change draw_reference_state(App& app) {
 }
 
 Change draw_reference(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     const float buttons = em(c.reference ? 5.4f : 4.2f);
     ImGui::SetNextItemWidth(-buttons);
     const bool entered =
@@ -73,7 +73,7 @@ Change draw_reference(App& app) {
     return draw_reference_state(app);
 }
 
-void draw_metric(Comparison& c) {
+void draw_metric(CompareState& c) {
     if (!c.reference) {
         ui::wrapped(theme::text_dim, "Estimated relMSE, from two halves of the samples");
         return;
@@ -127,11 +127,11 @@ void draw_legend_below(const Plot& plot) {
 
 // The newest numbers of the shown image.
 void draw_numbers(const App& app) {
-    const Comparison& c = app.compare;
+    const CompareState& c = app.compare;
     CurveMaker maker = c.maker;
     if (app.snapshot && !app.snapshot->exponents.empty())
         maker.exponent = app.snapshot->exponents[shown_exponent(app)];
-    const ErrorCurve* curve = find_curve(c.curves, curve_label(maker));
+    const LiveCurve* curve = find_curve(c.curves, curve_label(maker));
     if (!curve || curve->points.empty()) return;
     const CurvePoint& p = curve->points.back();
     if (p.measured)
@@ -145,7 +145,7 @@ void draw_numbers(const App& app) {
 }
 
 void draw_buttons(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     const float third = ui::share_of_width(3);
     if (ui::wide_button(c.large_plot ? "Small" : "Large",
                         "The plot in a window of its own. [Shift+H]", third))
@@ -165,7 +165,7 @@ void draw_buttons(App& app) {
 }
 
 void draw_large(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     const Rect& v = app.ui.view;
     const vec2 size = glm::min(v.size() * vec2(0.9f, 0.6f), vec2(em(52), em(32)));
     ImGui::SetNextWindowPos({v.upper.x - em(0.8f), v.upper.y - em(0.8f)}, ImGuiCond_Appearing,
@@ -186,7 +186,7 @@ void draw_large(App& app) {
 }  // namespace
 
 Change draw_error_plot(App& app) {
-    Comparison& c = app.compare;
+    CompareState& c = app.compare;
     Change change;
     const bool large = c.large_plot && app.ui.panels;
     if (large) draw_large(app);

@@ -176,7 +176,7 @@ CurvePoint point(double seconds, std::uint64_t spp, double error, bool measured 
 }
 
 TEST(ErrorCurves, PointsStandEvenlyOnALogarithmicScale) {
-    std::vector<ErrorCurve> curves;
+    std::vector<LiveCurve> curves;
     const CurveMaker maker;
     for (int n = 1; n <= 100000; ++n) add_point(curves, maker, 1, point(0.01 * n, n, 1.0 / n));
     ASSERT_EQ(curves.size(), 1u);
@@ -189,7 +189,7 @@ TEST(ErrorCurves, PointsStandEvenlyOnALogarithmicScale) {
 }
 
 TEST(ErrorCurves, TheSameAgainOnlyGoesOn) {
-    std::vector<ErrorCurve> curves;
+    std::vector<LiveCurve> curves;
     const CurveMaker path{Technique::path, 2}, bdpt{Technique::bdpt, 1};
     for (int n = 1; n <= 64; n *= 2) add_point(curves, path, 1, point(n, n, 1.0 / n));
     add_point(curves, bdpt, 2, point(1, 2, 0.1));
@@ -219,7 +219,7 @@ TEST(ErrorCurves, AreNamedByWhatIsNotAsUsual) {
 }
 
 TEST(ErrorCurves, AreFewHoweverTheSliderMoves) {
-    std::vector<ErrorCurve> curves;
+    std::vector<LiveCurve> curves;
     // Every fifth value is stayed at for a while.
     for (unsigned job = 1; job <= 160; ++job) {
         const CurveMaker maker{Technique::bdpt, 0.05 * job};
@@ -228,11 +228,11 @@ TEST(ErrorCurves, AreFewHoweverTheSliderMoves) {
         EXPECT_LE(curves.size(), most_curves);
     }
     EXPECT_EQ(curves.size(), most_curves);
-    for (const ErrorCurve& c : curves) EXPECT_EQ(c.job % 5, 0u) << c.label;
+    for (const LiveCurve& c : curves) EXPECT_EQ(c.job % 5, 0u) << c.label;
 }
 
 TEST(ErrorCurves, CsvHasTheColumnsOfTheBatchAndTheEstimate) {
-    std::vector<ErrorCurve> curves;
+    std::vector<LiveCurve> curves;
     add_point(curves, {Technique::path, 2, SamplerKind::sobol, 5}, 1, point(0.5, 4, 0.25));
     add_point(curves, {Technique::bdpt, 1}, 2, point(0.5, 4, 0.125, true));
     EXPECT_EQ(curves_csv(curves),
@@ -314,7 +314,7 @@ TEST(PlotLayout, OfNothingHasItsTicksAndNoLine) {
 }
 
 TEST(PlotLayout, TechniquesKeepTheirColours) {
-    Comparison c;
+    CompareState c;
     for (int order = 0; order < 2; ++order) {
         c.curves.clear();
         std::vector<CurveMaker> makers = {{Technique::path, 2},
