@@ -98,8 +98,8 @@ bool is_candidate(const TechniqueResult& t) {
 
 std::string range_text(const Interval& i) {
     return std::isfinite(i.lower) && std::isfinite(i.upper)
-               ? fmt::format("95 % interval {} to {}", format_number(i.lower, 2),
-                             format_number(i.upper, 2))
+               ? fmt::format("95 % interval {} to {}", format_number(i.lower, 3),
+                             format_number(i.upper, 3))
                : "with one seed there is no interval";
 }
 
@@ -129,7 +129,7 @@ Verdict ranking(const Comparison& c) {
                 Mark::warning};
     const Interval& e = *best->efficiency;
     const std::string times =
-        format_number(e.value, 2) + " times as efficient as " + first + " (" + range_text(e) + ")";
+        format_number(e.value, 3) + " times as efficient as " + first + " (" + range_text(e) + ")";
     if (e.lower > 1) {
         const std::vector<std::string> ties = ties_of(c, *best);
         const std::string tied =

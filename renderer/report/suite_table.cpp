@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/file.h"
+#include "report/html_page.h"
 #include "report/summary.h"
 
 namespace midway {
@@ -14,8 +15,9 @@ using Json = nlohmann::ordered_json;
 
 std::string ratio_text(const Interval& i) {
     if (std::isnan(i.value)) return "-";
-    if (std::isnan(i.lower)) return fmt::format("{:.3g}", i.value);
-    return fmt::format("{:.3g} ({:.2g} to {:.2g})", i.value, i.lower, i.upper);
+    const std::string value = format_number(i.value, 3);
+    if (std::isnan(i.lower)) return value;
+    return value + " (" + format_number(i.lower, 3) + " to " + format_number(i.upper, 3) + ")";
 }
 
 // Marks stand for what the figure cannot be read without.
