@@ -46,7 +46,7 @@ struct PunctualLight {
     float intensity = 1;
     float inner_cone_angle = 0;              // radians, spot only
     float outer_cone_angle = 0.7853981634f;  // radians, spot only, above inner, at most pi/2
-    float range = 0;  // of the file, and not applied: light goes on as it does
+    float range = 0;                         // of the file; a hint for rasterisers, not applied
     dmat4 to_world{1.0};
 };
 
