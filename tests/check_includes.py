@@ -7,7 +7,8 @@ Includes point left only: math <- image <- shading <- scene <- {io, integrator} 
 
 import re
 import sys
-from pathlib import Path
+
+from support import whole_tree
 
 LAYERS = {"math": 0, "image": 1, "shading": 2, "scene": 3, "io": 4, "integrator": 4,
           "render": 5, "report": 6}
@@ -102,19 +103,10 @@ def check_file(root, path):
 def violations(root):
     """All violations under `root`, one line each."""
     found = []
-    for folder in ("renderer", "app"):
-        for file in sorted((root / folder).rglob("*")):
-            if file.suffix in SOURCES:
-                found += check_file(root, file.relative_to(root).as_posix())
+    for _, path in whole_tree.files(root, ("renderer", "app"), SOURCES):
+        found += check_file(root, path)
     return found
 
 
-def main():
-    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
-    found = violations(root)
-    print("\n".join(found) if found else "includes: all point left")
-    return 1 if found else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(whole_tree.main(__file__, violations, "includes: all point left"))

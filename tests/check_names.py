@@ -8,9 +8,9 @@ namespace, in a function or in another type is nobody else's.
 
 import re
 import sys
-from pathlib import Path
 
 from check_style import CPP, blank
+from support import whole_tree
 
 TYPE = re.compile(r"\b(?:struct|class|enum(?:\s+class)?|union)\s+(\w+)(?:\s+final)?\s*(?::(?!:)[^;(){}]*)?$")
 NAMESPACE = re.compile(r"\bnamespace(?:\s+([\w:]+))?\s*$")
@@ -36,24 +36,13 @@ def types_of(code):
 
 def violations(root):
     found, first = [], {}
-    for folder in ("renderer", "app"):
-        for file in sorted((root / folder).rglob("*")):
-            if file.suffix not in CPP:
-                continue
-            path = file.relative_to(root).as_posix()
-            for line, name in types_of(blank(file.read_text(encoding="utf-8"))):
-                place = first.setdefault(name, path)
-                if place != path:
-                    found.append(f"{path}:{line}: {name} is defined in {place} too; rename one")
+    for file, path in whole_tree.files(root, ("renderer", "app"), CPP):
+        for line, name in types_of(blank(file.read_text(encoding="utf-8"))):
+            place = first.setdefault(name, path)
+            if place != path:
+                found.append(f"{path}:{line}: {name} is defined in {place} too; rename one")
     return found
 
 
-def main():
-    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
-    found = violations(root)
-    print("\n".join(found) if found else "names: nothing to say")
-    return 1 if found else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(whole_tree.main(__file__, violations, "names: nothing to say"))

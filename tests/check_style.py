@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 from absolute_literals import absolute_literals, stale_reasons
+from support import whole_tree
 
 MAX_FILE_LINES = 400
 MAX_FUNCTION_LINES = 60  # between its braces
@@ -83,19 +84,10 @@ def check_file(root, path):
 def violations(root):
     """All violations under `root`, one line each."""
     found = []
-    for folder in ("renderer", "app", "shaders", "assets", "tests"):
-        for file in sorted((root / folder).rglob("*")):
-            if file.suffix in SOURCES and file.is_file():
-                found += check_file(root, file.relative_to(root).as_posix())
+    for _, path in whole_tree.files(root, ("renderer", "app", "shaders", "assets", "tests"), SOURCES):
+        found += check_file(root, path)
     return found + list(stale_reasons(root))
 
 
-def main():
-    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
-    found = violations(root)
-    print("\n".join(found) if found else "style: nothing to say")
-    return 1 if found else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(whole_tree.main(__file__, violations, "style: nothing to say"))
