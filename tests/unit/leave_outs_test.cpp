@@ -84,10 +84,10 @@ TEST(LeaveOuts, WhatIsNeedlessIsThere) {
     const SceneDescription d = bulb_room();
     EXPECT_LT(build(d)->sky_light, 0);
     EXPECT_GE(build_with(d, {.sky = true})->sky_light, 0);
-    for (const Material& m : build_with(d, {.transmission = true})->materials)
-        EXPECT_EQ(1, m.transmission);
-    for (const Material& m : build_with(d, {.textures = true})->materials)
-        EXPECT_TRUE(m.base_color_texture.used());
+    const auto all_transmit = build_with(d, {.transmission = true});
+    for (const Material& m : all_transmit->materials) EXPECT_EQ(1, m.transmission);
+    const auto all_textured = build_with(d, {.textures = true});
+    for (const Material& m : all_textured->materials) EXPECT_TRUE(m.base_color_texture.used());
 }
 
 TEST(LeaveOuts, FamiliesDoneAllTheSameChangeNoBit) {
