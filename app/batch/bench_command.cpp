@@ -90,7 +90,7 @@ int run(const CLI::App& command, BenchJob& job) {
     j["scene"] = p.description.source;
     j["technique"] = technique;
     j["size"] = {job.settings.width, job.settings.height};
-    fmt::print("{}\n", j.dump(2));
+    fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     return exit_done;
 }
 

@@ -1,38 +1,19 @@
 #include <fmt/format.h>
 
 #include "check.h"
+#include "render/command_line.h"
 #include "render_options.h"
 #include "session_options.h"
 
 namespace midway {
 namespace {
 
-// A word of a shell command.
-std::string quoted(const std::string& text) {
-    const auto plain = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) ||
-               std::string_view("_-./,:=+").find(c) != std::string_view::npos;
-    };
-    if (!text.empty() && std::ranges::all_of(text, plain)) return text;
-    std::string s = "'";
-    for (const char c : text) s += c == '\'' ? "'\\''" : std::string(1, c);
-    return s + "'";
-}
-
 // The scene with all wishes that are not as the file has them.
 std::string scene_words(const CheckCommand& c) {
     const SceneOptions& o = c.scene;
-    std::string s = quoted(c.session.empty() ? o.path : c.session);
-    if (o.sky) s += " --sky " + quoted(*o.sky);
-    if (o.sky_rotation_degrees != 0) s += fmt::format(" --sky-rotation {}", o.sky_rotation_degrees);
-    if (o.sky_strength != 1) s += fmt::format(" --sky-strength {}", o.sky_strength);
-    if (o.lamp_strength != 1) s += fmt::format(" --lamp-strength {}", o.lamp_strength);
-    if (o.camera) s += " --camera " + quoted(*o.camera);
-    if (o.look_at) s += fmt::format(" --look-at {}", fmt::join(*o.look_at, ","));
-    if (o.fov_degrees) s += fmt::format(" --fov {}", *o.fov_degrees);
-    if (o.aperture_radius) s += fmt::format(" --aperture {}", *o.aperture_radius);
-    if (o.focus_distance) s += fmt::format(" --focus {}", *o.focus_distance);
-    return s;
+    const std::string options = scene_options_line(o);
+    return shell_quoted(c.session.empty() ? o.path : c.session) + (options.empty() ? "" : " ") +
+           options;
 }
 
 std::string settings_words(const RenderSettings& s) {
@@ -52,9 +33,12 @@ int run(CheckCommand& c, const std::string& size, const CLI::App& options) {
 }  // namespace
 
 std::string replay_command(const CheckCommand& c, const AuditPlace& p) {
-    return fmt::format("midway render {} {} --exponent {} --debug-pixel {},{},{}", scene_words(c),
-                       settings_words(c.settings), fmt::join(audited_exponents, ","), p.x, p.y,
-                       p.pass);
+    // The audit draws with all families; a session would bring its own sampler and filter.
+    return fmt::format(
+        "midway render {} {} --technique bdpt --sampler {} --filter {} --exponent {} "
+        "--debug-pixel {},{},{}",
+        scene_words(c), settings_words(c.settings), to_string(c.settings.sampler),
+        to_string(c.settings.filter), fmt::join(audited_exponents, ","), p.x, p.y, p.pass);
 }
 
 std::string check_command_line(const CheckCommand& c) {

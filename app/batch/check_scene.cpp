@@ -215,7 +215,8 @@ int check_scene(const CheckCommand& c) {
         atomic_write(*c.report, audit_html(r, page));
     }
     if (c.json)
-        fmt::print("{}\n", audit_json(c, r).dump(2));
+        fmt::print("{}\n",
+                   audit_json(c, r).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
         print_audit(c, r);
     return r.passed() ? exit_done : exit_failed;

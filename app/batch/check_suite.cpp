@@ -94,7 +94,8 @@ int check_suite(const CheckCommand& c) {
     if (c.settings.seed != 0) command += fmt::format(" --seed {}", c.settings.seed);
     if (c.report) atomic_write(*c.report, suite_html(suite, command));
     if (c.json)
-        fmt::print("{}\n", suite_json(suite, command).dump(2));
+        fmt::print("{}\n", suite_json(suite, command)
+                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
         print_suite(suite);
     return suite_passed(suite) ? exit_done : exit_failed;

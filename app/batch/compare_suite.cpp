@@ -41,7 +41,8 @@ void check_name(const std::string& name, std::set<std::string>& seen, const std:
                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-") ==
                             std::string::npos;
     if (!usable) refuse("\"" + name + "\" is no name for a folder", path);
-    if (name == "references") refuse("a scene cannot be called \"references\"", path);
+    for (const char* taken : {"references", "index.html", "summary.json", "table.md"})
+        if (name == taken) refuse("a scene cannot be called \"" + name + "\"", path);
     if (!seen.insert(name).second) refuse("two scenes are called \"" + name + "\"", path);
 }
 
@@ -125,6 +126,8 @@ void apply_defaults(const Suite& suite, const CLI::App& options, CompareCommand&
         }
     }
     if (c.seconds && !(*c.seconds > 0)) refuse("the time is not above 0", *c.suite);
+    if (c.reference_seconds && !(*c.reference_seconds > 0))
+        refuse("the reference's time is not above 0", *c.suite);
     if (c.seeds < 1 || c.seeds > 1000) refuse("seeds are not 1 to 1000", *c.suite);
 }
 

@@ -1,10 +1,13 @@
 // midway diff: how far an image is from a reference.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "image/metrics.h"
+#include "report/comparison.h"
+#include "report/reference.h"
 
 namespace midway {
 namespace {
@@ -16,25 +19,36 @@ struct DiffCommand {
     bool json = false;
 };
 
+// Of the bias, as far as both images tell their own error; a mask leaves out what is known of it.
+double bias_deviate(const DiffCommand& c, const Reference& image, const Reference& reference) {
+    return c.mask ? unknown_number : deviate_of_means(image.luminance, reference.luminance);
+}
+
 int run(const DiffCommand& c) {
     DiffOptions options;
     options.epsilon = c.epsilon;
     if (c.mask) options.mask = read_image(*c.mask).image;
-    const ImageError e =
-        compare_images(read_image(c.image).image, read_image(c.reference).image, options);
-    const std::pair<const char*, double> figures[] = {{"mse", e.mse},
-                                                      {"rmse", e.rmse},
-                                                      {"relmse", e.relmse},
-                                                      {"relmse_trimmed", e.relmse_trimmed},
-                                                      {"smape", e.smape},
-                                                      {"flip", e.flip},
-                                                      {"mean_ratio", e.mean_ratio}};
+    const Reference image = load_reference(c.image), reference = load_reference(c.reference);
+    const ImageError e = compare_images(image.image, reference.image, options);
+    const std::pair<const char*, double> figures[] = {
+        {"mse", e.mse},
+        {"rmse", e.rmse},
+        {"relmse", e.relmse},
+        {"relmse_trimmed", e.relmse_trimmed},
+        {"smape", e.smape},
+        {"flip", e.flip},
+        {"mean_ratio", e.mean_ratio},
+        {"bias", bias(e)},
+        {"bias_z", bias_deviate(c, image, reference)}};
     if (c.json) {
         nlohmann::ordered_json j;
-        for (const auto& [key, value] : figures) j[key] = value;
+        for (const auto& [key, value] : figures)
+            j[key] = std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
         fmt::print("{}\n", j.dump(2));
     } else {
-        for (const auto& [key, value] : figures) fmt::print("{:<15} {:.6g}\n", key, value);
+        for (const auto& [key, value] : figures)
+            fmt::print("{:<15} {}\n", key,
+                       std::isnan(value) ? "unknown" : fmt::format("{:.6g}", value));
     }
     if (c.max_relmse && !(e.relmse <= *c.max_relmse)) {
         fmt::print(stderr,
@@ -50,8 +64,8 @@ int run(const DiffCommand& c) {
 Command add_diff_command(CLI::App& app) {
     auto c = std::make_shared<DiffCommand>();
     CLI::App& sub = *app.add_subcommand("diff", "Compare an image with a reference");
-    sub.add_option("image", c->image, "EXR or HDR")->required();
-    sub.add_option("reference", c->reference, "EXR or HDR")->required();
+    sub.add_option("image", c->image, "EXR, HDR or .film")->required();
+    sub.add_option("reference", c->reference, "EXR, HDR or .film")->required();
     sub.add_flag("--json", c->json, "Print JSON");
     sub.add_option("--max-relmse", c->max_relmse, "Exit with 1 where relMSE exceeds this");
     sub.add_option("--epsilon", c->epsilon, "relMSE = mean (x-r)^2 / (r^2 + E)");

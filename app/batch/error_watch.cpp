@@ -49,8 +49,9 @@ void ErrorWatch::take(const ProgressiveRenderer& r, double seconds) {
         error_ = estimate_relmse(r.film(), r.counts());
     } else {
         for (size_t i = 0; i < settings_.exponents.size(); ++i) {
-            const ErrorPoint p = measure_error(*reference_, r.film(static_cast<int>(i)), r.counts(),
-                                               {seconds, r.cpu_seconds()});
+            const ErrorPoint p =
+                measure_error(*reference_, r.film(static_cast<int>(i)), r.counts(),
+                              {before_.seconds + seconds, before_.cpu_seconds + r.cpu_seconds()});
             if (i == 0) error_ = p.relmse;
             rows_ += error_csv_row(std::string(to_string(settings_.technique)),
                                    settings_.exponents[i], settings_.seed, p);

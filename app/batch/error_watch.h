@@ -30,6 +30,8 @@ class ErrorWatch {
     bool wanted() const { return options_.log || options_.target; }
     // The number of passes at which the next error is to be taken.
     std::uint64_t next(const ProgressiveRenderer& renderer) const;
+    // What was done before the first pass and counts as rendering too.
+    void begin_at(const Elapsed& before) { before_ = before; }
     // Takes the error after `seconds` of rendering, unless it has been taken at these very samples.
     void take(const ProgressiveRenderer& renderer, double seconds);
     // At the last number of passes that counts: has the target been reached?
@@ -42,6 +44,7 @@ class ErrorWatch {
     RenderSettings settings_;
     std::optional<Reference> reference_;
     std::string rows_ = error_csv_header();
+    Elapsed before_;
     std::uint64_t taken_ = 0;
     double error_ = 0;
     bool reached_ = false;

@@ -128,7 +128,7 @@ Command add_info_command(CLI::App& app) {
         job->quiet = *json;
         if (*cost) j.update(cost_json(p, *job));
         if (*json) {
-            fmt::print("{}\n", j.dump(2));
+            fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
         } else {
             print_warnings(p.warnings);
             print_text(j);

@@ -107,8 +107,11 @@ void write_outputs(const OutputOptions& o, const PreparedScene& p, const RenderS
         for (size_t i = 0; i < settings.exponents.size(); ++i)
             write_image(path, o, r.image(static_cast<int>(i)), settings.exponents, i, metadata);
     }
-    if (o.aov) write_aovs(*o.aov, r, metadata);
-    if (o.strategies) write_strategies(*o.strategies, r, metadata);
+    // Of a list of exponents these show the first.
+    Metadata of_first = metadata;
+    set_exponent(of_first, settings.exponents.front());
+    if (o.aov) write_aovs(*o.aov, r, of_first);
+    if (o.strategies) write_strategies(*o.strategies, r, of_first);
     if (o.stats) write_stats(*o.stats, p, settings, r, figures);
 }
 

@@ -91,6 +91,16 @@ void warn_of_gaps(const ProgressiveRenderer& r, const PreparedScene& p, Techniqu
         print_warnings({fmt::format("{} does not cover: {}", to_string(technique), what)});
 }
 
+// Strategies that were asked for and leave the image black.
+void warn_of_absent(const ProgressiveRenderer& r, const PreparedScene& p,
+                    const RenderSettings& settings) {
+    for (const Strategy& k : settings.only)
+        if (const std::string why =
+                why_left_out(k, scene_features(*p.scene), r.estimator(), settings);
+            !why.empty())
+            print_warnings({fmt::format("--only {},{} adds nothing: {}", k.s, k.t, why)});
+}
+
 // Renders to the first limit that is met, an error among them; returns the seconds of rendering.
 double render_watched(ProgressiveRenderer& r, const WaveLimits& all, ErrorWatch& watch,
                       const std::function<void(const WaveState&)>& progress) {
@@ -161,8 +171,12 @@ int run(RenderCommand& c) {
     const std::optional<PlanDecision> decision =
         choose_plan(*p.scene, p.camera, c.settings, c.renderer.threads);
     if (!c.debug_pixel.empty()) return debug(c, p);
+    if (decision) watch.begin_at({decision->seconds, decision->cpu_seconds});
     ProgressiveRenderer r(p.scene, p.camera, c.settings, c.renderer);
-    if (!c.quiet) warn_of_gaps(r, p, c.settings.technique);
+    if (!c.quiet) {
+        warn_of_gaps(r, p, c.settings.technique);
+        warn_of_absent(r, p, c.settings);
+    }
     catch_interrupt();
     const RunFigures figures = render_all(c, p, r, watch, decision);
     write_outputs(c.outputs, p, c.settings, r, figures);

@@ -96,7 +96,7 @@ void write_stats(const std::string& path, const PreparedScene& p, const RenderSe
                 j["left_out"].push_back({{"what", f == Family::connection ? "connect" : "light"},
                                          {"why", "auto: " + describe(*figures.decision)}});
     }
-    atomic_write(path, j.dump(2) + "\n");
+    atomic_write(path, j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace midway

@@ -61,6 +61,9 @@ struct Estimator {
     // keeps its own expectation, whatever the survival probability.
     int roulette_start = 4;
 
+    // Estimates are recorded without their weights too: a weight of zero spares no ray.
+    bool keeps_bare = false;
+
     std::atomic<Work>* watch = nullptr;  // where somebody looks
     void at(Work work) const {
         if (watch) watch->store(work, std::memory_order_relaxed);
@@ -71,6 +74,11 @@ struct Estimator {
 
     // Whether light tracing makes paths of so many edges.
     bool splats(int edges) const { return families.light_tracing && share_of(edges) > 0; }
+
+    // Whether a strategy takes part in images.
+    bool forms(const Strategy& k) const {
+        return family_of(k) == Family::light_tracing ? splats(k.edges()) : has(k);
+    }
 
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
     // n of a strategy in the weights of an exponent, as mis.h wants it beside a vcm.

@@ -38,8 +38,6 @@ double z_score(const Estimate& a, const Estimate& b) {
     return difference / error;
 }
 
-double z_test(const Estimate& a, const Estimate& b) { return two_sided_p(z_score(a, b)); }
-
 double two_sided_p(double z) {
     // A NaN is smaller than no level; it must not pass for agreement.
     return std::isnan(z) ? 0 : std::erfc(std::abs(z) / std::sqrt(2.0));

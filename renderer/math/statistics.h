@@ -26,8 +26,7 @@ struct Estimate {
 // 0 where they are equal and infinity where not.
 double z_score(const Estimate& a, const Estimate& b);
 
-// Two-sided p-value of z_score. The estimates must be near normal: average many samples first.
-double z_test(const Estimate& a, const Estimate& b);
+// Two-sided p-value of a normal deviate.
 double two_sided_p(double z);
 
 // Mean and variance of a stream of numbers.

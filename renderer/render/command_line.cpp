@@ -112,6 +112,12 @@ std::string command_line(const SceneOptions& scene, const RenderSettings& settin
     return joined(command_words(scene, settings, limits, output));
 }
 
+std::string scene_options_line(const SceneOptions& scene) {
+    Words w;
+    add_scene(w, scene);
+    return joined(w.list);
+}
+
 std::string session_command_line(const std::string& session, const RenderLimits& limits,
                                  const std::string& output) {
     Words w;

@@ -22,6 +22,9 @@ std::string command_line(const SceneOptions& scene, const RenderSettings& settin
 std::string session_command_line(const std::string& session, const RenderLimits& limits,
                                  const std::string& output);
 
+// What differs from the file in a scene, as a command line's options; single edits apart.
+std::string scene_options_line(const SceneOptions& scene);
+
 std::string shell_quoted(const std::string& word);
 
 }  // namespace midway

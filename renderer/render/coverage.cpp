@@ -102,28 +102,37 @@ std::vector<FamilyNeed> family_needs(const SceneFeatures& f) {
     return needs;
 }
 
-std::vector<std::string> not_covered(const SceneFeatures& f, const Families& families,
-                                     bool direct_lamps) {
-    std::vector<std::string> result;
+std::vector<PathKind> kinds_not_covered(const SceneFeatures& f, const Families& families,
+                                        bool direct_lamps) {
+    std::vector<PathKind> kinds;
     constexpr int longest = 4;
     for (const bool hittable : {true, false}) {
         if (!(hittable ? f.hittable_lights : f.delta_lights)) continue;
-        std::vector<Pattern> shortest;
         for (int n = 0; n <= (f.lit ? longest : 0); ++n)
             for (int bits = 0; bits < (1 << n); ++bits) {
                 Pattern p;
                 for (int i = 0; i < n; ++i) p += (bits >> i) & 1 ? 'S' : 'R';
                 const bool exists = (f.rough || p.find('R') == Pattern::npos) &&
                                     (f.smooth || p.find('S') == Pattern::npos);
-                if (!exists || !measurable(p, hittable) ||
-                    covered(p, hittable, families, direct_lamps))
-                    continue;
-                // A longer path that contains one already told says nothing new.
-                bool told = false;
-                for (const Pattern& q : shortest) told |= p.find(q) != Pattern::npos;
-                if (!told) shortest.push_back(p);
+                if (exists && measurable(p, hittable) &&
+                    !covered(p, hittable, families, direct_lamps))
+                    kinds.push_back({p, hittable});
             }
-        for (const Pattern& p : shortest) result.push_back(in_words(p, hittable, f));
+    }
+    return kinds;
+}
+
+std::vector<std::string> not_covered(const SceneFeatures& f, const Families& families,
+                                     bool direct_lamps) {
+    std::vector<PathKind> shortest;
+    std::vector<std::string> result;
+    for (const PathKind& k : kinds_not_covered(f, families, direct_lamps)) {
+        const auto tells = [&](const PathKind& q) {
+            return q.hittable == k.hittable && k.surfaces.find(q.surfaces) != Pattern::npos;
+        };
+        if (std::ranges::any_of(shortest, tells)) continue;
+        shortest.push_back(k);
+        result.push_back(in_words(k.surfaces, k.hittable, f));
     }
     return result;
 }

@@ -29,7 +29,20 @@ struct FamilyNeed {
 };
 std::vector<FamilyNeed> family_needs(const SceneFeatures& features);
 
-// The kinds of path, in words, that these families cannot make although the scene may have them.
+// A kind of path: its surfaces from the camera on, 'R' where one can be connected to, 'S' where a
+// delta lobe scatters, and whether its light can be hit.
+struct PathKind {
+    std::string surfaces;
+    bool hittable = false;
+    bool operator==(const PathKind&) const = default;
+};
+
+// All kinds of up to four surfaces that these families cannot make although the scene may have
+// them, the short ones first: to be counted and compared.
+std::vector<PathKind> kinds_not_covered(const SceneFeatures& features, const Families& families,
+                                        bool direct_lamps);
+
+// The same in words, without those that contain a shorter one.
 std::vector<std::string> not_covered(const SceneFeatures& features, const Families& families,
                                      bool direct_lamps);
 

@@ -35,7 +35,8 @@ std::string header_json(const FilmHeader& h) {
     j["unit_exponent"] = h.unit_exponent;
     j["passes"] = Json::array();
     for (const PassRange& r : h.passes) j["passes"].push_back({r.first, r.end});
-    return j.dump();
+    // The scene's name may be any bytes.
+    return j.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 FilmHeader parse_header(const std::string& text, const std::string& path) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 #include "render/coverage.h"
@@ -216,7 +217,9 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
     const Candidates candidates = find_candidates(scene, e);
     const Plan full{e.families, e.families.needs_light_subpaths() ? 4 : 0};
     PlanDecision decision{candidates.count > 0 ? candidates.plans[0] : full, {}};
-    if (candidates.count < 2) {
+    // Strategies that were asked for one by one are there whatever they cost.
+    if (!settings.only.empty()) decision.plan = full;
+    if (candidates.count < 2 || !settings.only.empty()) {
         decision.forecasts.push_back({decision.plan});
         return decision;
     }
@@ -274,7 +277,9 @@ std::string describe(const PlanDecision& decision) {
 std::optional<PlanDecision> choose_plan(const Scene& scene, const CameraDescription& camera,
                                         RenderSettings& settings, int threads) {
     if (settings.technique != Technique::automatic || settings.plan) return {};
+    const std::clock_t cpu = std::clock();
     std::optional<PlanDecision> decision = decide_plan(scene, camera, settings, threads);
+    decision->cpu_seconds = double(std::clock() - cpu) / CLOCKS_PER_SEC;
     settings.plan = decision->plan;
     return decision;
 }

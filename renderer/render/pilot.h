@@ -39,6 +39,7 @@ struct PlanDecision {
     Plan plan;
     std::vector<PlanForecast> forecasts;  // of all that were weighed up, simplest first
     double seconds = 0;
+    double cpu_seconds = 0;  // of the whole process meanwhile; known to choose_plan() alone
     const PlanForecast& chosen() const;
 };
 

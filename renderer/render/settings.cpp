@@ -131,7 +131,10 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     e.light_subpaths = planned ? light_subpaths(*s.plan, pixels) : pixels;
     e.connection_share = std::min(1.0, double(e.light_subpaths) / double(pixels));
-    e.direct_share = planned && !s.plan->splats_direct ? 0 : direct_share(scene, e.families);
+    // A plan may be older than the families; without next event splats are all there is.
+    const bool spared = planned && !s.plan->splats_direct && e.families.next_event;
+    e.direct_share = spared ? 0 : direct_share(scene, e.families);
+    e.keeps_bare = s.unweighted;
     return e;
 }
 

@@ -72,7 +72,7 @@ void PathAudit::add_sample(const Estimator& e, const PathSetting& setting, int x
     sample_luminance_ = 0;
     draw_paths(e, x, y, pass, [&](const DrawnPath& p) {
         const Strategy& k = p.contribution.strategy;
-        if (p.edges() > 1 && !e.has(k)) return;
+        if (p.edges() > 1 && !e.forms(k)) return;
         add_path(e, setting, p, {x, y, pass, k, k.s - 1});
     });
     brightness_.add(sample_luminance_);

@@ -50,6 +50,7 @@ struct ErrorCurve {
     std::uint64_t seed = 0;
     std::vector<ErrorPoint> points;
     bool complete = false;  // reached the time asked for
+    bool counts = true;     // false: far shorter than the others, and left out of all that is said
 };
 
 // The curve of the mean over the seeds, at common times; lower and upper bound its 95 % interval.
@@ -76,9 +77,10 @@ struct TimeTo {
 struct BiasVerdict {
     Interval bias;                  // mean over seeds and halves
     double z = unknown_number;      // in standard errors, as of a normal deviate
-    double limit = unknown_number;  // |z| above it is flagged
-    bool flagged = false;
-    bool expected = false;  // the technique does not cover the scene, or settings make it biased
+    double limit = unknown_number;  // |z| above it is more than chance explains
+    bool flagged = false;           // it is above, and should not be
+    bool expected = false;  // it may be: technique and reference do not cover the same, or settings
+                            // make it biased
     std::string text;       // the verdict in a sentence
 };
 

@@ -82,13 +82,29 @@ ComparePlan with_decisions(ComparePlan plan) {
         if (const auto d = choose_plan(*p.scene, p.camera, t.settings, plan.threads)) {
             t.decision = describe(*d);
             t.seconds_before = d->seconds;
+            t.cpu_seconds_before = d->cpu_seconds;
         }
     return plan;
 }
 
-// Why a difference of the means is no fault of the technique; empty where it is.
-std::string bias_excuse(const TechniqueResult& t, const RenderSettings& s) {
-    if (!t.not_covered.empty()) return "it does not cover " + t.not_covered.front();
+// What the reference lacks; nothing where it was given, and is taken as whole.
+std::vector<PathKind> reference_gaps(const ComparePlan& plan, const ReferenceInfo& reference) {
+    if (plan.reference_file) return {};
+    for (const TechniqueChoice& t : reference_plan(plan).candidates)
+        if (t.label == reference.technique) return uncovered_kinds(*plan.scene, t.settings);
+    return {};
+}
+
+// Why a difference of the means is no fault of the technique; empty where it is. What neither it
+// nor the reference covers makes no difference.
+std::string bias_excuse(const ComparePlan& plan, size_t technique,
+                        const std::vector<PathKind>& missing_in_reference) {
+    const RenderSettings& s = plan.settings;
+    const TechniqueChoice& t = plan.techniques[technique];
+    const auto missing = uncovered_kinds(*plan.scene, t.settings);
+    if (missing != missing_in_reference)
+        return missing.empty() ? "the reference does not cover the scene"
+                               : "it does not cover " + uncovered_paths(*plan.scene, t.settings)[0];
     if (s.clamp) return "contributions are clamped";
     if (!s.only.empty() || s.unweighted) return "not all of the estimate is recorded";
     return "";
@@ -126,17 +142,18 @@ void take_curves(TechniqueResult& t, TechniqueRun run, Comparison& c) {
     t.image_seconds = t.curves.front().points.back().seconds;
 }
 
-BiasVerdict bias_of(const TechniqueResult& t, const TechniqueRun& run, const ComparePlan& plan,
-                    const Reference& reference) {
+BiasVerdict bias_of(const TechniqueRun& run, const ComparePlan& plan, const Reference& reference,
+                    const std::string& excuse) {
     BiasTest test;
     for (const CurveRun& r : run.seeds) {
+        if (!r.curve.counts) continue;
         test.luminances.push_back(r.luminance_a);
         test.luminances.push_back(r.luminance_b);
     }
     test.reference = reference.luminance;
     test.comparisons =
         plan.bias_comparisons > 0 ? plan.bias_comparisons : std::int64_t(plan.techniques.size());
-    test.excuse = bias_excuse(t, plan.settings);
+    test.excuse = excuse;
     return judge_bias(test);
 }
 
@@ -147,7 +164,8 @@ void fit_all(Comparison& c) {
         t.final_mean = mean_of_last(t.curves);
         t.final_mean.bias_z = t.bias.z;
     }
-    const std::vector<double> errors = errors_to_reach(c.techniques, most_errors_to_reach);
+    const std::vector<double> errors =
+        errors_to_reach(c.techniques, c.reference.floor_relmse, most_errors_to_reach);
     const TechniqueResult& first = c.techniques.front();
     for (TechniqueResult& t : c.techniques) {
         for (const double e : errors) t.time_to.push_back(time_to_reach(t.band, e));
@@ -175,11 +193,13 @@ std::optional<Comparison> compare_scene(const ComparePlan& undecided, const Comp
     c.time = plan.seconds;
     c.seeds = plan.seeds;
     c.complete = run.complete;
+    leave_out_short_seeds(run);
+    const std::vector<PathKind> gaps = reference_gaps(plan, reference->info);
     bool begun = false;
     for (size_t i = 0; i < plan.techniques.size(); ++i) {
         TechniqueResult t = describe_technique(plan, plan.techniques[i]);
         begun |= !run.techniques[i].seeds.empty();
-        t.bias = bias_of(t, run.techniques[i], plan, reference->reference);
+        t.bias = bias_of(run.techniques[i], plan, reference->reference, bias_excuse(plan, i, gaps));
         take_curves(t, std::move(run.techniques[i]), c);
         c.techniques.push_back(std::move(t));
     }
@@ -192,8 +212,8 @@ std::optional<Comparison> compare_scene(const ComparePlan& undecided, const Comp
     c.warnings = plan.scene->warnings;
     if (run.restarted)
         c.warnings.push_back(
-            "curves kept in films/ were of other settings, another machine or another reference; "
-            "they were made anew");
+            "curves kept in films/ were of other settings, another machine or another reference, "
+            "or damaged; they were made anew");
     add_warnings(c);
     return c;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "render/command_line.h"
 #include "report/convergence_bias.h"
 
 namespace midway {
@@ -40,6 +42,18 @@ void warn_of_technique(const TechniqueResult& t, Comparison& c) {
             "of so few are unreliable, the trimmed error is not");
 }
 
+void warn_of_short_seeds(Comparison& c) {
+    std::set<std::uint64_t> seeds;
+    for (const TechniqueResult& t : c.techniques)
+        for (const ErrorCurve& curve : t.curves)
+            if (!curve.counts) seeds.insert(curve.seed);
+    for (const std::uint64_t seed : seeds)
+        c.warnings.push_back(
+            fmt::format("seed {} went less than half as far as the others: its errors are in "
+                        "convergence.csv alone",
+                        seed));
+}
+
 }  // namespace
 
 std::vector<NamedValue> setting_texts(const ComparePlan& plan) {
@@ -60,7 +74,10 @@ std::vector<NamedValue> setting_texts(const ComparePlan& plan) {
     if (s.families) add("families", to_string(*s.families));
     for (const Strategy& k : s.only) add("only", fmt::format("{},{}", k.s, k.t));
     if (s.unweighted) add("unweighted", "yes");
-    if (plan.scene->description.sky) add("sky", plan.scene->description.sky->source);
+    const SceneOptions& o = plan.scene->options;
+    if (const std::string line = scene_options_line(o); !line.empty()) add("scene options", line);
+    if (!o.edits.empty()) add("edits", "of single lights or materials, by the session");
+    if (plan.scene->description.sky && !o.sky) add("sky", plan.scene->description.sky->source);
     if (!plan.scene->camera.name.empty()) add("camera", plan.scene->camera.name);
     add("scene hash", fmt::format("{:016x}", plan.scene->hash));
     return v;
@@ -107,6 +124,7 @@ void add_warnings(Comparison& c) {
         c.warnings.push_back(
             "the error of the reference is not known: curves flatten where they meet it. A .film, "
             "or an EXR with a layer \"variance\" (--aov), would tell it");
+    warn_of_short_seeds(c);
     for (const TechniqueResult& t : c.techniques) warn_of_technique(t, c);
 }
 

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
 
-#include "render/coverage.h"
 #include "render/film_file.h"
 #include "render/renderer.h"
 #include "report/convergence_state.h"
@@ -53,31 +53,45 @@ RenderSettings with_seed(RenderSettings s, int number) {
     return s;
 }
 
+// The film that a kept curve ends with; empty where it is of other samples or damaged.
+std::optional<FilmFile> kept_film(const ConvergencePlan& plan, const Runner& r) {
+    try {
+        FilmFile file = read_film(r.path + ".film");
+        const FilmHeader own = film_header(*plan.scene, r.settings, *r.renderer);
+        const bool same = render_difference(own, file.header).empty();
+        if (same && pass_counts(file.header).total() == r.run.passes.total()) return file;
+    } catch (const std::runtime_error&) {
+    }
+    return {};
+}
+
 Runner open_runner(const ConvergencePlan& plan, const TechniqueChoice& t, int seed,
                    bool& restarted) {
     Runner r;
     r.settings = with_seed(t.settings, seed);
     r.path = curve_path(plan, t.label, r.settings.seed);
     r.key = curve_key(plan, r.settings);
-    const KeptCurve kept = read_curve(r.path, r.key, r.run);
-    restarted |= kept == KeptCurve::stale;
-    if (kept == KeptCurve::usable && is_complete(r.run, plan)) return r;
     RendererOptions options;
     options.threads = plan.threads;
     r.renderer = std::make_unique<ProgressiveRenderer>(plan.scene->scene, plan.scene->camera,
                                                        r.settings, options);
-    if (kept == KeptCurve::usable) {
-        FilmFile file = read_film(r.path + ".film");
-        check_same_render(film_header(*plan.scene, r.settings, *r.renderer), file.header);
-        if (pass_counts(file.header).total() == r.run.passes.total()) {
-            r.renderer->adopt(std::move(file.films), r.run.passes.total());
-        } else {
-            r.run = {};
-            restarted = true;
-        }
+    const KeptCurve kept = read_curve(r.path, r.key, r.run);
+    std::optional<FilmFile> film;
+    if (kept == KeptCurve::usable) film = kept_film(plan, r);
+    restarted |= kept == KeptCurve::stale || (kept == KeptCurve::usable && !film);
+    if (film && is_complete(r.run, plan)) {
+        r.renderer.reset();
+        return r;
     }
+    if (film)
+        r.renderer->adopt(std::move(film->films), r.run.passes.total());
+    else
+        r.run = {};
     r.run.curve.seed = r.settings.seed;
-    if (r.run.passes.total() == 0) r.run.seconds = t.seconds_before;
+    if (r.run.passes.total() == 0) {
+        r.run.seconds = t.seconds_before;
+        r.run.cpu_seconds = t.cpu_seconds_before;
+    }
     r.nonfinite_before = r.run.nonfinite;
     r.cpu_before = r.run.cpu_seconds;
     return r;
@@ -195,6 +209,11 @@ bool run_seed(const ConvergencePlan& plan, const CompareHooks& hooks, int seed,
 std::vector<std::string> uncovered_paths(const PreparedScene& p, const RenderSettings& settings) {
     const Estimator e = make_estimator(*p.scene, p.camera, settings);
     return not_covered(scene_features(*p.scene), e.families, e.direct_lamps);
+}
+
+std::vector<PathKind> uncovered_kinds(const PreparedScene& p, const RenderSettings& settings) {
+    const Estimator e = make_estimator(*p.scene, p.camera, settings);
+    return kinds_not_covered(scene_features(*p.scene), e.families, e.direct_lamps);
 }
 
 ConvergenceRun run_convergence(const ConvergencePlan& plan, const CompareHooks& hooks) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "render/coverage.h"
 #include "render/prepare.h"
 #include "render/settings.h"
 #include "report/comparison.h"
@@ -21,14 +22,16 @@ namespace midway {
 struct TechniqueChoice {
     std::string label;  // "bdpt:2"
     RenderSettings settings;
-    // Of `auto`: its decision in words, and the seconds that it took, which count as rendering.
+    // Of `auto`: its decision in words, and the time that it took, which counts as rendering.
     std::string decision;
-    double seconds_before = 0;
+    double seconds_before = 0, cpu_seconds_before = 0;
 };
 
-// The kinds of path, in words, that the technique cannot make although the scene may have them.
+// What the technique cannot make although the scene may have it, in words and whole
+// (render/coverage.h).
 std::vector<std::string> uncovered_paths(const PreparedScene& scene,
                                          const RenderSettings& settings);
+std::vector<PathKind> uncovered_kinds(const PreparedScene& scene, const RenderSettings& settings);
 
 struct CompareHooks {
     std::function<bool()> stop;  // asked between slices
@@ -67,7 +70,7 @@ struct TechniqueRun {
 struct ConvergenceRun {
     std::vector<TechniqueRun> techniques;  // as in the plan
     bool complete = false;                 // all curves reached their time
-    bool restarted = false;  // kept curves were of other settings or another reference
+    bool restarted = false;  // kept curves were of other settings or another reference, or damaged
 };
 
 ConvergenceRun run_convergence(const ConvergencePlan& plan, const CompareHooks& hooks);

@@ -54,10 +54,12 @@ double growing_at(const ErrorCurve& c, Field field, double seconds) {
     return a * std::pow(b / a, k.share);
 }
 
-std::vector<const ErrorCurve*> with_points(std::span<const ErrorCurve> curves) {
+bool has_a_say(const ErrorCurve& c) { return c.counts && !c.points.empty(); }
+
+std::vector<const ErrorCurve*> with_a_say(std::span<const ErrorCurve> curves) {
     std::vector<const ErrorCurve*> result;
     for (const ErrorCurve& c : curves)
-        if (!c.points.empty()) result.push_back(&c);
+        if (has_a_say(c)) result.push_back(&c);
     return result;
 }
 
@@ -132,8 +134,26 @@ double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
 
 }  // namespace
 
+void leave_out_short_seeds(ConvergenceRun& run) {
+    // How far each seed went with all techniques.
+    std::vector<double> seconds;
+    for (const TechniqueRun& t : run.techniques)
+        seconds.resize(std::max(seconds.size(), t.seeds.size()),
+                       std::numeric_limits<double>::infinity());
+    for (size_t i = 0; i < seconds.size(); ++i)
+        for (const TechniqueRun& t : run.techniques)
+            seconds[i] = i < t.seeds.size() ? std::min(seconds[i], t.seeds[i].seconds) : 0;
+    if (seconds.size() < 2) return;
+    std::vector<double> sorted = seconds;
+    std::ranges::sort(sorted);
+    const double median = sorted[sorted.size() / 2];
+    for (TechniqueRun& t : run.techniques)
+        for (size_t i = 0; i < t.seeds.size(); ++i)
+            t.seeds[i].curve.counts = seconds[i] >= 0.5 * median;
+}
+
 std::vector<BandPoint> mean_curve(std::span<const ErrorCurve> all) {
-    const std::vector<const ErrorCurve*> curves = with_points(all);
+    const std::vector<const ErrorCurve*> curves = with_a_say(all);
     std::vector<BandPoint> band;
     for (const double t : common_times(curves)) {
         BandPoint p;
@@ -151,7 +171,7 @@ std::vector<BandPoint> mean_curve(std::span<const ErrorCurve> all) {
 }
 
 ConvergenceFit fit_slope(std::span<const ErrorCurve> all, double floor) {
-    const std::vector<const ErrorCurve*> curves = with_points(all);
+    const std::vector<const ErrorCurve*> curves = with_a_say(all);
     const double least = floor > 0 ? floor : 0;
     std::vector<double> times;
     for (const double t : common_times(curves))
@@ -202,7 +222,8 @@ TimeTo time_to_reach(const std::vector<BandPoint>& band, double relmse) {
     return result;
 }
 
-std::vector<double> errors_to_reach(const std::vector<TechniqueResult>& techniques, size_t most) {
+std::vector<double> errors_to_reach(const std::vector<TechniqueResult>& techniques, double floor,
+                                    size_t most) {
     double lowest = std::numeric_limits<double>::infinity(), highest = 0;
     for (const TechniqueResult& t : techniques)
         for (const BandPoint& p : t.band)
@@ -210,6 +231,7 @@ std::vector<double> errors_to_reach(const std::vector<TechniqueResult>& techniqu
                 lowest = std::min(lowest, p.relmse.value);
                 highest = std::max(highest, p.relmse.value);
             }
+    if (floor > lowest) lowest = floor;
     std::vector<double> errors;
     for (int decade = -12; decade <= 12; ++decade)
         for (const double digit : {1.0, 3.0}) {
@@ -224,7 +246,7 @@ std::vector<double> errors_to_reach(const std::vector<TechniqueResult>& techniqu
 Interval relative_efficiency(std::span<const ErrorCurve> first, std::span<const ErrorCurve> other,
                              EfficiencyMetric metric) {
     const Field field = metric == EfficiencyMetric::relmse ? relmse_of : trimmed_of;
-    // Seeds that both have begun.
+    // Seeds that both have.
     std::vector<double> a, b;
     const auto error_time = [&](const ErrorCurve& c) {
         const double last = c.points.back().seconds;
@@ -238,7 +260,7 @@ Interval relative_efficiency(std::span<const ErrorCurve> first, std::span<const 
         return sum / n;
     };
     for (size_t i = 0; i < std::min(first.size(), other.size()); ++i) {
-        if (first[i].points.empty() || other[i].points.empty()) continue;
+        if (!has_a_say(first[i]) || !has_a_say(other[i])) continue;
         a.push_back(error_time(first[i]));
         b.push_back(error_time(other[i]));
     }
@@ -256,7 +278,7 @@ Interval relative_efficiency(std::span<const ErrorCurve> first, std::span<const 
 
 ErrorPoint mean_of_last(std::span<const ErrorCurve> all) {
     ErrorPoint mean;
-    const std::vector<const ErrorCurve*> curves = with_points(all);
+    const std::vector<const ErrorCurve*> curves = with_a_say(all);
     if (curves.empty()) return mean;
     const auto over = [&](const std::function<double(const ErrorPoint&)>& value) {
         return mean_over(curves, [&](const ErrorCurve& c) { return value(c.points.back()); });

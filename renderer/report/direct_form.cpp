@@ -35,7 +35,8 @@ bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& settin
         case Family::next_event:
             return setting.families.next_event && !p.vertices[last - 1].delta;
         case Family::light_tracing:
-            return setting.families.light_tracing && !p.vertices[1].delta;
+            return setting.families.light_tracing && light_tracing_count(setting, last) > 0 &&
+                   !p.vertices[1].delta;
         case Family::connection:
             return setting.families.connection && !p.vertices[k.s - 1].delta &&
                    !p.vertices[k.s].delta;

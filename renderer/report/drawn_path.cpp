@@ -218,7 +218,9 @@ std::optional<RecordedWalk> record_light(const Estimator& e, std::uint64_t subpa
         w.escaped = reached == Reached::sky;
         if (reached != Reached::surface) break;
         add_vertex(w);
-        if (w.now.vertex.connectible) visit_light_tracing(e, w, visit);
+        // Where light tracing has no samples its weight would be a division by zero.
+        if (w.now.vertex.connectible && e.share_of(w.now.index + 1) > 0)
+            visit_light_tracing(e, w, visit);
         if (!scatter_on_record(w)) break;
     }
     return w;

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "image/metrics.h"
-#include "math/student.h"
 
 namespace midway {
 namespace {
@@ -20,43 +19,6 @@ dvec3 half_mean(const Film& film, int half, std::uint64_t count, int x, int y) {
     const int unit = film.unit_exponent();
     return dvec3(from_fixed(sum[0], unit), from_fixed(sum[1], unit), from_fixed(sum[2], unit)) /
            double(count);
-}
-
-// Squared standard error of the mean luminance, and its degrees of freedom: the sum of the squares
-// of the blocks' differences, whose freedom follows from how unequal they are (Satterthwaite 1946).
-struct SquaredError {
-    double value = 0, freedom = 0;
-};
-
-SquaredError error_of_mean(const Film& film, const PassCounts& n) {
-    constexpr int blocks = 8;
-    std::array<double, blocks * blocks> difference{};
-    for (int y = 0; y < film.height(); ++y)
-        for (int x = 0; x < film.width(); ++x)
-            difference[y * blocks / film.height() * blocks + x * blocks / film.width()] +=
-                luminance(half_mean(film, 0, n.a, x, y) - half_mean(film, 1, n.b, x, y));
-    double squares = 0, fourths = 0;
-    for (const double d : difference) {
-        squares += d * d;
-        fourths += sqr(d * d);
-    }
-    if (squares == 0) return {};
-    const double total = double(n.total());
-    const double pixels = double(film.width()) * film.height();
-    return {squares * (double(n.a) / total) * (double(n.b) / total) / sqr(pixels),
-            std::clamp(3 * sqr(squares) / fourths, 1.0, double(blocks * blocks))};
-}
-
-// (x - r) / r in standard errors, both sides' measured.
-double bias_deviate(double bias, const Reference& r, const SquaredError& x) {
-    const double mean = r.luminance.estimate.mean;
-    const double reference = sqr(r.luminance.estimate.standard_error);
-    const double square = x.value + reference;
-    if (!(mean != 0) || !(square > 0)) return unknown;
-    double inverse = sqr(x.value) / std::max(1.0, x.freedom);
-    if (r.luminance.freedom > 0) inverse += sqr(reference) / r.luminance.freedom;
-    const double freedom = inverse > 0 ? sqr(square) / inverse : 1;
-    return normal_deviate_of_student(bias * std::abs(mean) / std::sqrt(square), freedom);
 }
 
 // The shortest text that reads back as the same bits; nothing where the number is unknown.
@@ -85,8 +47,7 @@ ErrorPoint measure_error(const Reference& r, const Image& image, std::uint64_t s
 ErrorPoint measure_error(const Reference& r, const Film& film, const PassCounts& passes,
                          const Elapsed& elapsed, bool flip) {
     ErrorPoint p = measure_error(r, resolve(film, passes), passes.total(), elapsed, flip);
-    if (passes.a > 0 && passes.b > 0)
-        p.bias_z = bias_deviate(p.bias, r, error_of_mean(film, passes));
+    p.bias_z = deviate_of_means(film_luminance(film, passes), r.luminance);
     return p;
 }
 

@@ -14,10 +14,9 @@ struct Elapsed {
     double seconds = 0, cpu_seconds = 0;
 };
 
-// The error of the film's mean. The bias's standard error comes from the difference of the halves A
-// and B, block by block of an 8 x 8 grid, with blocks taken as independent (measured: z has root
-// mean square 1.0 to 1.2 over 24 seeds of `light` and `bdpt:2`), and from the reference; bias_z is
-// NaN where one half is empty. Throws std::runtime_error where sizes differ.
+// The error of the film's mean. bias_z compares film_luminance() with the reference's (measured: z
+// has root mean square 1.0 to 1.2 over 24 seeds of `light` and `bdpt:2`) and is NaN where one half
+// is empty. Throws std::runtime_error where sizes differ.
 ErrorPoint measure_error(const Reference& reference, const Film& film, const PassCounts& passes,
                          const Elapsed& elapsed, bool flip = false);
 

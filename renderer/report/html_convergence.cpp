@@ -89,8 +89,6 @@ ChartSeries series_of(const TechniqueResult& t, const std::vector<XChoice>& xs,
     return series;
 }
 
-bool is_wrong(const TechniqueResult& t) { return t.bias.flagged && !t.bias.expected; }
-
 bool is_candidate(const TechniqueResult& t) {
     return !t.bias.flagged && t.not_covered.empty() && t.efficiency &&
            std::isfinite(t.efficiency->value);
@@ -182,15 +180,18 @@ Verdict verdict_of(const Comparison& c) {
     Verdict verdict = ranking(c);
     std::vector<std::string> wrong, partial;
     for (const TechniqueResult& t : c.techniques) {
-        if (is_wrong(t)) wrong.push_back(t.label);
+        if (t.bias.flagged) wrong.push_back(t.label);
         if (!t.not_covered.empty()) partial.push_back(t.label);
     }
     if (!partial.empty())
         verdict.text += " " + joined(partial) + (partial.size() == 1 ? " does" : " do") +
                         " not cover all of this scene.";
     if (!wrong.empty()) {
+        const std::string& by = c.reference.technique;
         verdict.text = joined(wrong) + (wrong.size() == 1 ? " is" : " are") +
-                       " biased: the mean of the images differs from the reference's by more than "
+                       " biased, or the reference" +
+                       (by.empty() ? "" : ", which " + by + " rendered,") +
+                       " is: the mean of the images differs from the reference's by more than "
                        "chance explains. " +
                        verdict.text;
         verdict.mark = Mark::bad;

@@ -160,7 +160,7 @@ void add_image_viewer(HtmlPage& page, const std::vector<PageImage>& images, size
     page.add_style(web::images_css);
     page.add_html(web::images_html);
     page.add_html(data);
-    page.add_json("images", spec.dump());
+    page.add_json("images", spec.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     page.add_script(web::images_js);
     page.add_script(web::viewer_js);
 }

@@ -105,9 +105,10 @@ void add_bias_table(HtmlPage& page, const Comparison& c) {
     for (const TechniqueResult& t : c.techniques) {
         const BiasVerdict& b = t.bias;
         const Interval percent{b.bias.value * 100, b.bias.lower * 100, b.bias.upper * 100};
-        const Mark mark = !b.flagged   ? (std::isfinite(b.z) ? Mark::good : Mark::none)
-                          : b.expected ? Mark::warning
-                                       : Mark::bad;
+        const Mark mark = b.flagged                 ? Mark::bad
+                          : !std::isfinite(b.z)     ? Mark::none
+                          : std::abs(b.z) > b.limit ? Mark::warning
+                                                    : Mark::good;
         table.rows.push_back({technique_cell(t), interval_cell(percent, 2), format_number(b.z, 2),
                               format_number(b.limit, 2), HtmlCell(b.text, mark)});
     }

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "image/file.h"
 #include "report/html_images.h"
 #include "report/html_report.h"
+#include "report/summary.h"
 
 namespace midway {
 namespace {
@@ -17,14 +19,8 @@ const TechniqueResult* find(const Comparison& c, const std::string& label) {
     return found == c.techniques.end() ? nullptr : &*found;
 }
 
-// Labels of all scenes, in the order of their first appearance.
-std::vector<std::string> labels_of(const SuiteReport& suite) {
-    std::vector<std::string> labels;
-    for (const Comparison& c : suite.scenes)
-        for (const TechniqueResult& t : c.techniques)
-            if (std::ranges::find(labels, t.label) == labels.end()) labels.push_back(t.label);
-    return labels;
-}
+// Whether a technique's errors say how well it does: all of the scene is in them.
+bool is_sound(const TechniqueResult& t) { return t.not_covered.empty() && !t.bias.flagged; }
 
 HtmlCell result_cell(const Comparison& c, const std::string& label) {
     const TechniqueResult* t = find(c, label);
@@ -34,7 +30,7 @@ HtmlCell result_cell(const Comparison& c, const std::string& label) {
         cell.detail += (cell.detail.empty() ? "" : "\n") + std::string(text);
     };
     if (!t->not_covered.empty()) remark("does not cover all");
-    if (t->bias.flagged && !t->bias.expected) {
+    if (t->bias.flagged) {
         remark("BIASED");
         cell.mark = Mark::bad;
     }
@@ -44,7 +40,15 @@ HtmlCell result_cell(const Comparison& c, const std::string& label) {
 // How a technique fares against the first, scene by scene.
 struct Score {
     std::vector<std::string> better, worse, even;
-    double logarithms = 0;  // sum of those of the ratios
+    std::vector<std::string> uncounted;  // one of the two is not sound there
+    double logarithms = 0;               // sum of those of the ratios, uncounted ones left out
+
+    size_t counted() const { return better.size() + worse.size() + even.size(); }
+    // Of the ratios' geometric mean.
+    double mean_logarithm() const {
+        return counted() > 0 ? logarithms / double(counted())
+                             : -std::numeric_limits<double>::infinity();
+    }
 };
 
 Score score_of(const SuiteReport& suite, const std::string& label) {
@@ -54,6 +58,10 @@ Score score_of(const SuiteReport& suite, const std::string& label) {
         if (!t || t == &c.techniques[0] || !t->efficiency || !std::isfinite(t->efficiency->value))
             continue;
         const std::string entry = c.name + " (" + format_number(t->efficiency->value) + ")";
+        if (!is_sound(*t) || !is_sound(c.techniques[0])) {
+            score.uncounted.push_back(c.name);
+            continue;
+        }
         score.logarithms += std::log(std::max(t->efficiency->value, 1e-300));
         (t->efficiency->lower > 1   ? score.better
          : t->efficiency->upper < 1 ? score.worse
@@ -77,13 +85,15 @@ void add_scores(HtmlPage& page, const SuiteReport& suite, const std::vector<std:
     HtmlTable table;
     table.caption = "Against " + labels[0] +
                     ", by scene, with the ratio. Better and worse: the whole 95 % interval lies "
-                    "above or below 1.";
-    table.columns = {"technique", "better on", "worse on", "not told apart on"};
+                    "above or below 1. Not counted: one of the two does not cover the scene, or is "
+                    "biased.";
+    table.columns = {"technique", "better on", "worse on", "not told apart on", "not counted on"};
     for (size_t i = 1; i < labels.size(); ++i) {
         const Score score = score_of(suite, labels[i]);
         HtmlCell name(labels[i]);
         name.swatch = true;
-        table.rows.push_back({name, joined(score.better), joined(score.worse), joined(score.even)});
+        table.rows.push_back({name, joined(score.better), joined(score.worse), joined(score.even),
+                              joined(score.uncounted)});
     }
     page.add_heading("Gains and losses");
     page.add_table(table);
@@ -110,25 +120,34 @@ void add_scenes(HtmlPage& page, const SuiteReport& suite, const std::vector<std:
     page.add_table(table);
 }
 
-Verdict suite_verdict(const SuiteReport& suite, const std::vector<std::string>& labels) {
-    Verdict verdict;
-    verdict.text = fmt::format("{} of {} scenes. ", suite.scenes.size(), suite.scenes_planned);
+// Which technique does best, by the geometric mean of its ratios to the first, among those that can
+// be counted on most scenes.
+std::string best_on_the_whole(const SuiteReport& suite, const std::vector<std::string>& labels) {
     std::string best;
     Score score;
     for (size_t i = 1; i < labels.size(); ++i) {
         const Score s = score_of(suite, labels[i]);
-        if (best.empty() || s.logarithms > score.logarithms) {
-            best = labels[i];
-            score = s;
-        }
+        const bool better = s.counted() == score.counted()
+                                ? s.mean_logarithm() > score.mean_logarithm()
+                                : s.counted() > score.counted();
+        if (!better) continue;
+        best = labels[i];
+        score = s;
     }
-    // By the geometric mean of the ratios.
-    if (!best.empty())
-        verdict.text += fmt::format(
-            "{} does best on the whole. Against {} it is better on {}, worse on {}{}, not told "
-            "apart on {}{}.",
-            best, labels[0], score.better.size(), score.worse.size(), after_colon(score.worse),
-            score.even.size(), after_colon(score.even));
+    if (best.empty()) return "";
+    const std::string against =
+        fmt::format("gainst {} it is better on {}, worse on {}{}, not told apart on {}{}.",
+                    labels[0], score.better.size(), score.worse.size(), after_colon(score.worse),
+                    score.even.size(), after_colon(score.even));
+    return score.mean_logarithm() > 0 ? best + " does best on the whole. A" + against
+                                      : fmt::format("{} does best on the whole; next comes {}: a{}",
+                                                    labels[0], best, against);
+}
+
+Verdict suite_verdict(const SuiteReport& suite, const std::vector<std::string>& labels) {
+    Verdict verdict;
+    verdict.text = fmt::format("{} of {} scenes. ", suite.scenes.size(), suite.scenes_planned) +
+                   best_on_the_whole(suite, labels);
     for (const Comparison& c : suite.scenes)
         if (verdict_of(c).mark == Mark::bad) {
             verdict.text += " " + c.name + " shows bias.";
@@ -144,7 +163,7 @@ Verdict suite_verdict(const SuiteReport& suite, const std::vector<std::string>& 
 }  // namespace
 
 void write_suite_index(const SuiteReport& suite, const std::string& directory) {
-    std::vector<std::string> labels = labels_of(suite);
+    std::vector<std::string> labels = technique_labels(suite);
     if (labels.empty()) labels = {"the first technique"};
     const Verdict verdict = suite_verdict(suite, labels);
     HtmlPage page(suite.name + ": error against run time on every scene", verdict.text,
@@ -152,16 +171,15 @@ void write_suite_index(const SuiteReport& suite, const std::string& directory) {
     add_scenes(page, suite, labels);
     if (labels.size() > 1) add_scores(page, suite, labels);
     page.add_heading("How this was measured");
-    if (!suite.scenes.empty()) {
-        page.add_paragraph(suite.scenes[0].method);
-        page.add_code(suite.scenes[0].formula);
-    }
+    page.add_paragraph(
+        "Each scene's report holds its curves, its reference with its own error, and how times and "
+        "errors were had.");
     page.add_facts({{"Processor", suite.machine.cpu},
                     {"Threads", std::to_string(suite.machine.threads)},
                     {"Midway", suite.machine.version},
                     {"Instruction set", suite.machine.instruction_set},
                     {"Compiler", suite.machine.compiler},
-                    {"Run time of the suite", format_number(suite.seconds) + " s"}});
+                    {"Run time, this time", format_number(suite.seconds) + " s"}});
     page.add_heading("To make it again");
     page.add_code(suite.command);
     atomic_write((std::filesystem::path(directory) / "index.html").string(), page.finish());

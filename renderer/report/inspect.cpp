@@ -256,7 +256,7 @@ InspectedPath inspect_path(const Inspection& in, const DrawnPath& p, int unit_ex
 
 // Whether the render forms this path at all, and its films take it.
 bool is_recorded(const Estimator& e, const Recording& recording, const Strategy& k) {
-    const bool formed = e.has(k) || (k == Strategy{2, 0} && e.direct_lamps);
+    const bool formed = e.forms(k) || (k == Strategy{2, 0} && e.direct_lamps);
     return formed && recording.wants(k);
 }
 
@@ -282,11 +282,6 @@ const char* to_string(VertexKind kind) {
             return "left the scene";
     }
     return "";
-}
-
-const InspectedStrategy& InspectedPath::found_by() const {
-    return strategies.size() == 1 ? strategies.front()
-                                  : strategies[static_cast<size_t>(contribution.strategy.s) - 1];
 }
 
 InspectedSample inspect_sample(const Inspectable& what, int x, int y, std::uint64_t pass) {

@@ -74,8 +74,6 @@ struct InspectedPath {
     std::vector<dvec3> points;
     bool infinite = false;
     InspectedVertex light_end;  // what the path ends on
-
-    const InspectedStrategy& found_by() const;
 };
 
 struct InspectedSample {

@@ -1,11 +1,14 @@
 #include "report/reference.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "image/metrics.h"
 #include "math/hash.h"
+#include "math/student.h"
 #include "render/film_file.h"
 
 namespace midway {
@@ -79,7 +82,53 @@ bool is_variance(const Image& v, const Image& image) {
     return true;
 }
 
+// Squared standard error of the mean luminance, and its degrees of freedom: the sum of the squares
+// of the blocks' differences, whose freedom follows from how unequal they are (Satterthwaite 1946).
+struct SquaredError {
+    double value = 0, freedom = 0;
+};
+
+SquaredError error_of_mean(const Film& film, const PassCounts& n) {
+    constexpr int blocks = 8;
+    const Part a{&film, 0, double(n.a)}, b{&film, 1, double(n.b)};
+    std::array<double, blocks * blocks> difference{};
+    for (int y = 0; y < film.height(); ++y)
+        for (int x = 0; x < film.width(); ++x)
+            difference[y * blocks / film.height() * blocks + x * blocks / film.width()] +=
+                luminance(a.pixel(x, y) - b.pixel(x, y));
+    double squares = 0, fourths = 0;
+    for (const double d : difference) {
+        squares += d * d;
+        fourths += sqr(d * d);
+    }
+    if (squares == 0) return {};
+    const double total = double(n.total());
+    const double pixels = double(film.width()) * film.height();
+    return {squares * (double(n.a) / total) * (double(n.b) / total) / sqr(pixels),
+            std::clamp(3 * sqr(squares) / fourths, 1.0, double(blocks * blocks))};
+}
+
 }  // namespace
+
+MeasuredMean film_luminance(const Film& film, const PassCounts& n) {
+    const double total = double(n.total());
+    double mean = 0;
+    if (n.a > 0) mean += double(n.a) / total * half_luminance(film, n, 0);
+    if (n.b > 0) mean += double(n.b) / total * half_luminance(film, n, 1);
+    if (n.a == 0 || n.b == 0) return {{mean, 0}, 0};
+    const SquaredError e = error_of_mean(film, n);
+    return {{mean, std::sqrt(e.value)}, e.freedom};
+}
+
+double deviate_of_means(const MeasuredMean& x, const MeasuredMean& r) {
+    const double own = sqr(x.estimate.standard_error), other = sqr(r.estimate.standard_error);
+    if (!(x.freedom > 0) || !(own + other > 0) || r.estimate.mean == 0)
+        return std::numeric_limits<double>::quiet_NaN();
+    double inverse = sqr(own) / x.freedom;
+    if (r.freedom > 0) inverse += sqr(other) / r.freedom;
+    return normal_deviate_of_student((x.estimate.mean - r.estimate.mean) / std::sqrt(own + other),
+                                     sqr(own + other) / inverse);
+}
 
 double mean_luminance(const Image& image) {
     double sum = 0;
@@ -116,7 +165,9 @@ Reference reference_of_films(std::span<const FilmPart> films) {
             r.image.at(x, y) = vec3(mean);
         }
     for (double& m : means) m /= double(width) * height;
-    r.luminance = weighted_mean(means, parts);
+    // Two halves tell too little of how far apart they are by chance.
+    r.luminance = films.size() == 1 ? film_luminance(*films[0].film, films[0].passes)
+                                    : weighted_mean(means, parts);
     if (parts.size() > 1) r.variance = std::move(variance);
     for (const FilmPart& f : films) r.spp += f.passes.total();
     return r;

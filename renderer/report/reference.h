@@ -31,6 +31,14 @@ struct FilmPart {
     PassCounts passes;
 };
 
+// Mean luminance of a film. Its error comes from the difference of the halves A and B, block by
+// block of an 8 x 8 grid, with blocks taken as independent; unknown where one half is empty.
+MeasuredMean film_luminance(const Film& film, const PassCounts& passes);
+
+// The difference of two means in standard errors, as a normal deviate (Welch 1947); NaN where the
+// error of `x` is not known. A reference of unknown error is taken as exact.
+double deviate_of_means(const MeasuredMean& x, const MeasuredMean& reference);
+
 // The mean of films of one scene and size that differ in their seeds.
 Reference reference_of_films(std::span<const FilmPart> films);
 

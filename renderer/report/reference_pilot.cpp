@@ -17,18 +17,6 @@ struct Pilot {
     double seconds = 0, error_time = 0;
 };
 
-std::vector<const TechniqueChoice*> best_covering(const ReferencePlan& plan) {
-    size_t least = ~size_t{0};
-    std::vector<const TechniqueChoice*> best;
-    for (const TechniqueChoice& t : plan.candidates) {
-        const size_t gaps = uncovered_paths(*plan.scene, t.settings).size();
-        if (gaps < least) best.clear();
-        least = std::min(least, gaps);
-        if (gaps == least) best.push_back(&t);
-    }
-    return best;
-}
-
 // Both halves hold two passes at least.
 Pilot render_pilot(const ReferencePlan& plan, const TechniqueChoice& choice,
                    const CompareHooks& hooks) {
@@ -54,11 +42,13 @@ Pilot render_pilot(const ReferencePlan& plan, const TechniqueChoice& choice,
 Image median_of(const std::vector<Pilot>& pilots) {
     Image median = pilots.front().image;
     std::vector<float> values(pilots.size());
+    // The lower one of two: a firefly is never below.
+    const size_t middle = (pilots.size() - 1) / 2;
     for (size_t i = 0; i < median.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             for (size_t k = 0; k < pilots.size(); ++k) values[k] = pilots[k].image.pixels[i][c];
-            std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-            median.pixels[i][c] = values[values.size() / 2];
+            std::nth_element(values.begin(), values.begin() + middle, values.end());
+            median.pixels[i][c] = values[middle];
         }
     return median;
 }
@@ -75,6 +65,18 @@ double relative_error(const Image& variance, const Image& reference) {
 }
 
 }  // namespace
+
+std::vector<const TechniqueChoice*> best_covering(const ReferencePlan& plan) {
+    size_t least = ~size_t{0};
+    std::vector<const TechniqueChoice*> best;
+    for (const TechniqueChoice& t : plan.candidates) {
+        const size_t gaps = uncovered_kinds(*plan.scene, t.settings).size();
+        if (gaps < least) best.clear();
+        least = std::min(least, gaps);
+        if (gaps == least) best.push_back(&t);
+    }
+    return best;
+}
 
 std::optional<PilotResult> run_pilot(const ReferencePlan& plan, const CompareHooks& hooks) {
     const std::vector<const TechniqueChoice*> choices = best_covering(plan);

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "report/reference_render.h"
 
@@ -15,8 +16,11 @@ struct PilotResult {
     std::string text;  // the figures, in a sentence
 };
 
-// Only techniques that leave the least of the scene uncovered take part. Empty where it was
-// stopped.
+// The candidates that leave the least of the scene uncovered: a technique that lacks light which
+// another finds has less noise, and makes a wrong reference.
+std::vector<const TechniqueChoice*> best_covering(const ReferencePlan& plan);
+
+// Among the best covering. Empty where it was stopped.
 std::optional<PilotResult> run_pilot(const ReferencePlan& plan, const CompareHooks& hooks);
 
 }  // namespace midway

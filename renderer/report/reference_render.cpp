@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "image/file.h"
 #include "math/hash.h"
@@ -49,15 +50,15 @@ std::string path_of(const ReferencePlan& plan) {
 
 std::string film_path(const std::string& path, int i) { return fmt::format("{}-{}.film", path, i); }
 
-// Empty where there is none, or where it names a technique that this plan does not know.
+// Empty where there is none, or where this plan would not take the technique that it names.
 std::optional<Record> read_record(const std::string& path, const ReferencePlan& plan) {
     std::ifstream in(path + ".json", std::ios::binary);
     if (!in) return {};
     try {
         const Json j = Json::parse(in);
         Record r{j.at("technique"), j.at("pilot"), j.at("seconds")};
-        for (const TechniqueChoice& t : plan.candidates)
-            if (t.label == r.label) return r;
+        for (const TechniqueChoice* t : best_covering(plan))
+            if (t->label == r.label) return r;
     } catch (const Json::exception&) {
     }
     return {};
@@ -86,12 +87,15 @@ struct Part {
 };
 
 // All films as they were kept; false where one is missing or of another render (where `auto` has
-// been taught to choose another plan, say).
+// been taught to choose another plan, say) or damaged.
 bool adopt_all(const ReferencePlan& plan, const std::string& path, std::vector<Part>& parts) {
     std::vector<FilmFile> films;
     for (int i = 0; i < int(parts.size()); ++i) {
-        if (!std::filesystem::exists(film_path(path, i))) return false;
-        films.push_back(read_film(film_path(path, i)));
+        try {
+            films.push_back(read_film(film_path(path, i)));
+        } catch (const std::runtime_error&) {
+            return false;
+        }
         const FilmHeader own = film_header(*plan.scene, parts[i].settings, *parts[i].renderer);
         if (!render_difference(own, films.back().header).empty()) return false;
     }

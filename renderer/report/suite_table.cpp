@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -29,17 +30,8 @@ std::string cell(const TechniqueResult& t, bool trimmed) {
     return text;
 }
 
-std::vector<std::string> columns(const SuiteReport& s) {
-    std::vector<std::string> labels;
-    for (const Comparison& c : s.scenes)
-        for (const TechniqueResult& t : c.techniques)
-            if (std::find(labels.begin(), labels.end(), t.label) == labels.end())
-                labels.push_back(t.label);
-    return labels;
-}
-
 std::string table(const SuiteReport& s, bool trimmed) {
-    const std::vector<std::string> labels = columns(s);
+    const std::vector<std::string> labels = technique_labels(s);
     std::string head = "| scene |", rule = "|---|", body;
     for (const std::string& l : labels) {
         head += " `" + l + "` |";
@@ -59,6 +51,14 @@ std::string table(const SuiteReport& s, bool trimmed) {
 }
 
 }  // namespace
+
+std::vector<std::string> technique_labels(const SuiteReport& s) {
+    std::vector<std::string> labels;
+    for (const Comparison& c : s.scenes)
+        for (const TechniqueResult& t : c.techniques)
+            if (std::ranges::find(labels, t.label) == labels.end()) labels.push_back(t.label);
+    return labels;
+}
 
 std::string suite_table(const SuiteReport& s) {
     std::string text = fmt::format(
@@ -89,7 +89,8 @@ void write_suite(const SuiteReport& s, const std::string& directory) {
     j["seconds"] = s.seconds;
     j["scenes"] = Json::array();
     for (const Comparison& c : s.scenes) j["scenes"].push_back(Json::parse(summary_json(c)));
-    atomic_write((folder / "summary.json").string(), j.dump(2) + "\n");
+    atomic_write((folder / "summary.json").string(),
+                 j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace midway

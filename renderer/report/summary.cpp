@@ -135,7 +135,7 @@ std::string summary_json(const Comparison& c) {
     j["method"] = c.method;
     j["techniques"] = Json::array();
     for (const TechniqueResult& t : c.techniques) j["techniques"].push_back(technique_json(t));
-    return j.dump(2) + "\n";
+    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void write_comparison(const Comparison& c, const std::string& directory) {

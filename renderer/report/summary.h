@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "report/comparison.h"
 
@@ -16,6 +17,9 @@ std::string convergence_csv(const Comparison& comparison);
 std::string summary_json(const Comparison& comparison);
 
 void write_comparison(const Comparison& comparison, const std::string& directory);
+
+// Labels of all techniques, in the order of their first appearance.
+std::vector<std::string> technique_labels(const SuiteReport& suite);
 
 // Efficiency relative to the first technique, scene by scene, as a table in Markdown.
 std::string suite_table(const SuiteReport& suite);

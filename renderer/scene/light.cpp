@@ -157,6 +157,7 @@ void emit_sky(const Scene& s, const EmissionNumbers& u, EmissionSample& e) {
     e.normal = e.direction;
     e.pdfs = sky_pdfs(s, sample.direction);
     e.pdfs.next_event = 0;
+    if (!(e.pdfs.origin > 0)) return;  // as in sample_next_event()
     e.weight = sky_radiance(*s.sky, sample.direction) / (e.pdfs.origin * e.pdfs.leave);
 }
 
@@ -267,7 +268,8 @@ std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& ref
     } else if (kind == LightKind::sky) {
         n.direction = sample_sky(*s.sky, u.point).direction;
         n.pdfs = sky_pdfs(s, n.direction);
-        n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
+        // Rounded, the direction may lie in the next cell, which may be black and have no density.
+        if (n.pdfs.next_event > 0) n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
     } else {
         next_event_punctual(s, pick, reference, n);
     }

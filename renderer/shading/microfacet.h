@@ -33,11 +33,6 @@ inline float ggx_g2(const vec3& o, const vec3& i, float alpha) {
     return 1 / (1 + ggx_lambda(o, alpha) + ggx_lambda(i, alpha));
 }
 
-// Density per solid angle of the normals visible from w, w.z > 0 (Heitz 2018, eq. 3).
-inline float ggx_visible_pdf_w(const vec3& w, const vec3& h, float alpha) {
-    return ggx_g1(w, alpha) * std::max(0.0f, glm::dot(w, h)) * ggx_d(h, alpha) / w.z;
-}
-
 // A normal visible from w, w.z > 0: a uniform point on the spherical cap of half vectors in the
 // stretched configuration (Dupuy & Benyoub 2023).
 inline vec3 sample_ggx_visible(const vec3& w, float alpha, const vec2& u) {

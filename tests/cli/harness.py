@@ -16,6 +16,8 @@ import tiny_scene
 ERROR_LINE = re.compile(r"^midway: error: \S.* \(.+\); \S.*$")
 SIZE = "32x24"
 
+SOURCE = Path(__file__).resolve().parents[2]
+
 # Set by run_tests.py: the program, and a factor on every time limit (sanitizer builds are slow).
 program = None
 slow = 1.0

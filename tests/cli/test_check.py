@@ -36,6 +36,8 @@ class Check(CliTest):
         self.assertTrue(any("not finite" in c["name"] for c in failed), failed)
         replay = next(c for c in failed if "not finite" in c["name"])["replay"].split()
         self.assertEqual("midway", replay[0])
+        # The audit draws with all families, whatever `auto` would choose.
+        self.assertEqual("bdpt", replay[replay.index("--technique") + 1])
         self.assertRegex(self.run_midway(*replay[1:]).stdout, r"value .*\b(inf|nan)\b")
 
     def test_the_report_is_one_page(self):

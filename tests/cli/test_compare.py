@@ -2,7 +2,10 @@
 
 import csv
 import json
+import os
+from pathlib import Path
 
+import harness
 from harness import CliTest
 
 COLUMNS = ["technique", "exponent", "seed", "seconds", "cpu_seconds", "spp", "mse", "rmse", "relmse",
@@ -85,6 +88,40 @@ class Compare(CliTest):
         self.short()
         self.assertNotEqual(kept, first.read_bytes())
 
+    def test_damaged_films_are_made_anew(self):
+        self.short()
+        film = self.out / "films" / "path-seed1.film"
+        whole = film.read_bytes()
+        # Cut, or of other samples than the points beside it.
+        for broken in (whole[:-100], (self.out / "films" / "path-seed0.film").read_bytes()):
+            film.write_bytes(broken)
+            self.assertIn("anew", self.short().stderr)
+            self.assertNotEqual(broken, film.read_bytes())
+            self.assertTrue(self.summary()["complete"])
+        self.assertNotIn("anew", self.short().stderr)
+        # The very render, but of fewer passes than the points were measured at.
+        older = film.read_bytes()
+        longer = ("--time", 0.4, "--seeds", 2, "--techniques", "path,bdpt:1", "--reference-time", 1)
+        self.compare(*longer)
+        film.write_bytes(older)
+        self.assertIn("anew", self.compare(*longer).stderr)
+        reference = next((self.out / "references").glob("*.film"))
+        reference.write_bytes(b"no film")
+        self.short()
+        self.assertGreater(len(reference.read_bytes()), 1000)
+
+    def test_names_may_be_any_bytes(self):
+        odd = self.folder / os.fsdecode(b"r\xe9sultats")
+        odd.mkdir()
+        scene = odd / os.fsdecode(b"sc\xe8ne.gltf")
+        scene.write_bytes(Path(self.scene).read_bytes())
+        self.run_midway("compare", scene, "-o", odd, "--size", "8x8", "--time", 0.1, "--seeds", 1,
+                        "--techniques", "path")
+        self.assertTrue((odd / "report.html").is_file())
+        self.assertTrue(self.summary(odd)["complete"])
+        self.run_midway("render", scene, "--size", "8x8", "--spp", 1, "-o", odd / "a.exr",
+                        "--stats", odd / "a.json")
+
     def test_another_setting_starts_anew_and_says_so(self):
         self.short()
         told = self.short("--max-bounces", 2).stderr
@@ -116,6 +153,44 @@ class Compare(CliTest):
         self.assertTrue(bias["flagged"])
         self.assertAlmostEqual(1 / 1.2 - 1, bias["relative"]["value"], delta=0.02)
 
+    def test_one_percent_is_flagged_on_cornell_within_a_minute(self):
+        # Two techniques, three seeds, two seconds each: then the mean of one of them is made 1 %
+        # too bright where the run keeps it, and the same command goes on from there. False alarm of
+        # the first half: 1e-3 by the limit's own making, and less on a quiet machine than on none:
+        # the more samples, the better the test's normality holds.
+        scene = harness.SOURCE / "assets" / "cornell.glb"
+        command = ("compare", scene, "-o", self.out, "--size", "64x64", "--time", 2, "--seeds", 3,
+                   "--techniques", "path,bdpt", "--reference-time", 8)
+        self.run_midway(*command)
+        sound = {t["label"]: t["bias"] for t in self.summary()["techniques"]}
+        for kept in (self.out / "films").glob("bdpt-2-seed*.json"):
+            curve = json.loads(kept.read_text())
+            for half in ("luminance_a", "luminance_b"):
+                curve[half] *= 1.01
+            kept.write_text(json.dumps(curve))
+        done = self.run_midway(*command)
+        planted = {t["label"]: t["bias"] for t in self.summary()["techniques"]}
+        self.assertIn("BIASED", done.stdout)
+        self.assertTrue(planted["bdpt:2"]["flagged"])
+        self.assertAlmostEqual(0.01, planted["bdpt:2"]["relative"]["value"]
+                               - sound["bdpt:2"]["relative"]["value"], delta=1e-4)
+        self.assertIn("bdpt:2 is biased, or the reference",
+                      (self.out / "report.html").read_text(encoding="utf-8"))
+        for verdict in (sound["path"], sound["bdpt:2"], planted["path"]):
+            self.assertFalse(verdict["flagged"], verdict)
+
+    def test_a_gap_that_the_reference_has_too_excuses_no_bias(self):
+        # Nothing finds all of five-lights; bdpt renders the reference, path lacks more than it.
+        self.run_midway("compare", harness.SOURCE / "assets" / "five-lights.glb", "-o", self.out,
+                        "--sky", "0.1,0.16,0.28", "--size", "16x16", "--time", 0.2, "--seeds", 2,
+                        "--techniques", "path,bdpt:1,bdpt:2")
+        told = self.summary()
+        self.assertIn(told["reference"]["technique"], ("bdpt:1", "bdpt:2"))
+        self.assertEqual([True, False, False],
+                         [t["bias"]["expected"] for t in told["techniques"]])
+        for technique in told["techniques"]:
+            self.assertTrue(technique["not_covered"])
+
     def test_refuses_what_makes_no_sense(self):
         for arguments in (["--time", 1, "--techniques", "path,path"], ["--techniques", "path"],
                           ["--time", 1, "--techniques", "photons"], ["--time", 1, "--seeds", 0],
@@ -146,7 +221,7 @@ class Suite(CliTest):
             self.assertTrue((self.out / name / "report.html").is_file())
         told = json.loads((self.out / "summary.json").read_text())
         self.assertEqual(["one", "two"], [scene["name"] for scene in told["scenes"]])
-        self.assertEqual("colour", told["scenes"][1]["settings"]["sky"])
+        self.assertEqual("--sky 0.2,0.3,0.4", told["scenes"][1]["settings"]["scene options"])
         table = (self.out / "table.md").read_text()
         self.assertIn("| one |", table)
         self.assertIn("`bdpt:2`", table)
@@ -158,9 +233,10 @@ class Suite(CliTest):
         scene = {"name": "one", "scene": "tiny.gltf"}
         for scenes in ([], [scene, scene], [{**scene, "name": "../x"}], [{**scene, "name": ""}],
                        [{**scene, "scene": "none.glb"}], [{**scene, "colour": 1}], [{"name": "a"}],
-                       [{**scene, "scene": 7}]):
+                       [{**scene, "name": "index.html"}], [{**scene, "scene": 7}]):
             self.refused("compare", "--suite", self.write(scenes=scenes), "-o", self.out, status=1)
-        for change in ({"time": -1}, {"seeds": "many"}, {"paint": 1}):
+        for change in ({"time": -1}, {"seeds": "many"}, {"paint": 1},
+                       {"reference-time": -1}):
             self.refused("compare", "--suite", self.write(**change), "-o", self.out, status=1)
         self.refused("compare", "--suite", self.folder / "none.json", "-o", self.out, status=1)
 
@@ -190,6 +266,16 @@ class ErrorLog(CliTest):
         # The reference's own variance is subtracted.
         self.assertLess(float(last["relmse"]), told["relmse"])
         self.assertGreater(float(last["relmse"]), 0.8 * told["relmse"])
+
+    def test_what_auto_decides_with_is_time_too(self):
+        log = self.out / "log.csv"
+        told = self.stats("--spp", 1, "--technique", "auto", "--reference", self.reference,
+                          "--error-log", log)
+        _, rows = rows_of(log)
+        decision = told["plan"]["seconds"]
+        self.assertGreater(decision, 0)
+        self.assertGreater(float(rows[0]["seconds"]), decision)
+        self.assertGreater(float(rows[0]["cpu_seconds"]), 0.3 * decision)
 
     def test_stops_at_an_error_and_always_at_the_same_sample(self):
         spp = {self.stats("--target-error", 0.05, "--threads", threads, "--seed", 3)["spp"]

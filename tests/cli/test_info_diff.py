@@ -6,7 +6,8 @@ import math
 from exr_file import ExrFile
 from harness import CliTest
 
-DIFF_KEYS = {"mse", "rmse", "relmse", "relmse_trimmed", "smape", "flip", "mean_ratio"}
+DIFF_KEYS = {"mse", "rmse", "relmse", "relmse_trimmed", "smape", "flip", "mean_ratio",
+             "bias", "bias_z"}
 
 
 class Info(CliTest):
@@ -69,9 +70,28 @@ class Diff(CliTest):
     def test_finds_no_difference_of_an_image_from_itself(self):
         told = self.diff(self.a, self.a)
         self.assertEqual(DIFF_KEYS, DIFF_KEYS & told.keys())
-        for key in DIFF_KEYS - {"mean_ratio"}:
+        for key in DIFF_KEYS - {"mean_ratio", "bias_z"}:
             self.assertEqual(0, told[key], key)
         self.assertEqual(1, told["mean_ratio"])
+        self.assertIsNone(told["bias_z"])  # neither tells its own error
+
+    def test_films_tell_their_own_errors(self):
+        films = []
+        for name, spp, lamps in (("c", 64, 1), ("d", 32, 1), ("e", 64, 1.3)):
+            films.append(self.out / f"{name}.film")
+            self.render("-o", films[-1], "--spp", spp, "--seed", spp, "--lamp-strength", lamps)
+        told = self.diff(films[1], films[0])
+        self.assertAlmostEqual(told["mean_ratio"] - 1, told["bias"])
+        self.assertLess(abs(told["bias_z"]), 4.4)  # false alarm 1e-5
+        self.assertNotEqual(0, told["bias_z"])
+        # A third more light is far outside.
+        self.assertGreater(self.diff(films[2], films[0])["bias_z"], 6)
+        self.assertIsNone(self.diff(films[1], films[0], "--mask", self.a_mask(films[0]))["bias_z"])
+
+    def a_mask(self, film):
+        path = self.out / "mask.exr"
+        self.run_midway("merge", film, "-o", path)
+        return path
 
     def test_computes_the_published_formulas(self):
         told = self.diff(self.a, self.b)

@@ -4,6 +4,7 @@ import json
 import re
 import struct
 
+import harness
 import tiny_scene
 from exr_file import ExrFile
 from harness import CliTest
@@ -57,6 +58,35 @@ class Files(CliTest):
                     "--strategies", layers)
         names = {name for name, _ in ExrFile(layers).channels}
         self.assertLessEqual({"s2t0.R", "s2t1.G", "s2t2.B", "s2t2.raw.R", "s1t2.raw.B"}, names)
+
+    def test_weighted_layers_sum_to_the_image(self):
+        image, layers = self.folder / "a.exr", self.folder / "layers.exr"
+        # As many bounces as there are layers for.
+        self.render("--spp", 4, "--technique", "bdpt", "--max-bounces", 6, "-o", image,
+                    "--strategies", layers)
+        whole, parts = ExrFile(image).pixels(), ExrFile(layers).pixels()
+        weighted = [name for name in parts if name.count(".") == 1 and name.endswith(".G")]
+        self.assertGreater(len(weighted), 15)
+        lit = 0
+        for y, row in enumerate(whole["G"]):
+            for x, value in enumerate(row):
+                self.assertAlmostEqual(value, sum(parts[name][y][x] for name in weighted),
+                                       delta=1e-5 * value)
+                lit += value > 0
+        self.assertGreater(lit, 300)
+
+    def test_says_what_a_technique_and_single_strategies_leave_out(self):
+        scene = harness.SOURCE / "assets" / "idol.glb"
+        done = self.run_midway("render", scene, "--size", "8x8", "--spp", 1, "--technique",
+                               "light", "-o", self.out / "a.exr")
+        self.assertIn("light does not cover: lamp or sky > smooth surface > camera", done.stderr)
+        # Asked for by name, a strategy is there whatever `auto` would choose without it.
+        image = self.out / "b.exr"
+        done = self.render("--spp", 16, "--only", "1,3", "-o", image)
+        self.assertNotIn("adds nothing", done.stderr)
+        self.assertGreater(max(map(max, ExrFile(image).pixels()["G"])), 0)
+        done = self.render("--spp", 1, "--only", "2,4", "--max-bounces", 2, "-o", image)
+        self.assertIn("--only 2,4 adds nothing: paths end after 2 bounces", done.stderr)
 
     def test_aovs_are_named_layers(self):
         layers = self.folder / "layers.exr"

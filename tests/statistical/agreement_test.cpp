@@ -90,6 +90,10 @@ void expect_agreement(const AgreementScene& scene) {
             const std::string name =
                 fmt::format("{}: {} b={}", scene.name, v.name, v.settings.exponents[i]);
             std::cout << name << ": " << j.text() << std::endl;
+            if (full_tier()) {
+                const Estimate mean = found[i].image.estimate();
+                EXPECT_LE(mean.standard_error, v.relative_error * mean.mean) << name;
+            }
             if (j.agrees()) continue;
             Effort more = effort_for(v);
             more.rounds *= 4;

@@ -26,8 +26,20 @@ RenderSettings planned(const AgreementScene& scene, const Plan& plan, int size) 
 std::vector<Plan> all_plans() {
     const Families path{true, true, false, false}, tracing{true, true, true, false};
     const Families connecting{true, true, false, true};
-    return {{path, 0},       {tracing, 1}, {tracing, 2}, {tracing, 4}, {tracing, 8},
-            {connecting, 4}, {{}, 1},      {{}, 2},      {{}, 4},      {{}, 8}};
+    return {{path, 0},
+            {tracing, 1},
+            {tracing, 2},
+            {tracing, 4},
+            {tracing, 8},
+            {connecting, 4},
+            {{}, 1},
+            {{}, 2},
+            {{}, 4},
+            {{}, 8},
+            // Direct light by next event alone.
+            {{}, 4, false},
+            {{}, 1, false},
+            {tracing, 2, false}};
 }
 
 // The trimmed relative squared error per sample of renders of sixteen passes, over sixteen seeds.
@@ -88,7 +100,7 @@ TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
 // Whatever a plan leaves out, the image is the same: by blocks and in the mean, at 1e-4 in all.
 TEST(Plans, HaveTheSameMean) {
     const std::vector<Plan> plans = all_plans();
-    for (const char* name : {"five_lights", "rough_glass"}) {
+    for (const char* name : {"five_lights", "rough_glass", "area"}) {
         const AgreementScene scene = make_agreement_scene(name);
         for (const Plan& plan : plans) {
             if (!families_cover(scene, plan.families)) continue;

@@ -12,6 +12,11 @@
 namespace midway::test {
 namespace {
 
+// Density per solid angle of the normals visible from w, w.z > 0 (Heitz 2018, eq. 3).
+float ggx_visible_pdf_w(const vec3& w, const vec3& h, float alpha) {
+    return ggx_g1(w, alpha) * std::max(0.0f, glm::dot(w, h)) * ggx_d(h, alpha) / w.z;
+}
+
 constexpr double alarm = 1e-4;
 constexpr int samples = 200'000;
 constexpr double two_pi = 6.283185307179586;

@@ -127,4 +127,6 @@ ChiSquare chi_square_test(std::span<const double> observed, std::span<const doub
     return result;
 }
 
+double z_test(const Estimate& a, const Estimate& b) { return two_sided_p(z_score(a, b)); }
+
 }  // namespace midway::test

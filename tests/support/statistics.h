@@ -31,4 +31,7 @@ struct ChiSquare {
 ChiSquare chi_square_test(std::span<const double> observed, std::span<const double> expected,
                           double min_expected = 5);
 
+// Two-sided p-value of z_score. The estimates must be near normal: average many samples first.
+double z_test(const Estimate& a, const Estimate& b);
+
 }  // namespace midway::test

@@ -116,11 +116,47 @@ TEST(ConvergenceFit, ErrorsToReachAreRoundAndWithinTheCurves) {
     std::vector<TechniqueResult> t(2);
     t[0].band = mean_curve(curves_of({0.01}, 2));
     t[1].band = mean_curve(curves_of({0.05}, 2));
-    const std::vector<double> errors = errors_to_reach(t, 3);
+    const std::vector<double> errors = errors_to_reach(t, unknown_number, 3);
     ASSERT_EQ(errors.size(), 3u);
     EXPECT_GT(errors[0], errors[1]);
     EXPECT_GE(errors[2], t[0].band.back().relmse.value);
     EXPECT_TRUE(std::abs(errors[2] - 0.03) < 1e-15 || std::abs(errors[2] - 0.01) < 1e-15);
+    // Below the reference's own error no curve means anything.
+    for (const double e : errors_to_reach(t, 0.2, 10)) EXPECT_GE(e, 0.2);
+    EXPECT_EQ(errors_to_reach(t, 0.2, 3).size(), 3u);
+}
+
+// Stopped half a second into the fourth seed, a run still knows what three whole ones say.
+TEST(ConvergenceFit, SeedsThatHardlyBeganAreLeftOut) {
+    ConvergenceRun run;
+    run.techniques.resize(2);
+    for (size_t i = 0; i < 2; ++i)
+        for (ErrorCurve& c : curves_of({i == 0 ? 1.0 : 0.2}, 4)) {
+            const bool last = c.seed == 3;
+            if (last) c.points.resize(i == 0 ? 2 : 1);
+            run.techniques[i].seeds.push_back({c});
+            run.techniques[i].seeds.back().seconds = c.points.back().seconds;
+        }
+    // The first technique alone has begun a fifth.
+    run.techniques[0].seeds.push_back(run.techniques[0].seeds.back());
+    leave_out_short_seeds(run);
+    std::vector<std::vector<ErrorCurve>> curves(2);
+    for (size_t i = 0; i < 2; ++i)
+        for (const CurveRun& r : run.techniques[i].seeds) curves[i].push_back(r.curve);
+    const auto whole = curves_of({1}, 3), other = curves_of({0.2}, 3);
+    EXPECT_EQ(mean_curve(curves[0]).back().seconds, mean_curve(whole).back().seconds);
+    EXPECT_EQ(mean_of_last(curves[0]).relmse, mean_of_last(whole).relmse);
+    EXPECT_EQ(fit_slope(curves[0], 0).slope.lower, fit_slope(whole, 0).slope.lower);
+    EXPECT_EQ(relative_efficiency(curves[0], curves[1], EfficiencyMetric::relmse).value,
+              relative_efficiency(whole, other, EfficiencyMetric::relmse).value);
+    // Curves that are to go on from where they were: all of them count.
+    for (TechniqueRun& t : run.techniques) {
+        t.seeds.resize(3);
+        t.seeds[0].seconds *= 3;
+    }
+    leave_out_short_seeds(run);
+    for (const TechniqueRun& t : run.techniques)
+        for (const CurveRun& r : t.seeds) EXPECT_TRUE(r.curve.counts);
 }
 
 TEST(ConvergenceFit, EfficiencyIsTheRatioOfErrorTimesTime) {

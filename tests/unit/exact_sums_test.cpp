@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"
+#include "report/reference.h"
 #include "support/agreement_scenes.h"
 
 namespace midway::test {
@@ -59,6 +60,30 @@ TEST(ExactSums, WeightedLayersSumToTheImageExactly) {
                 lit += sum[0] > 0;
             }
     EXPECT_GT(lit, 100u);
+}
+
+// A bare layer is the image of its strategy alone without weights, as integers.
+TEST(ExactSums, BareLayersAreTheImagesOfStrategiesAlone) {
+    const AgreementScene scene = make_agreement_scene("five_lights");
+    RenderSettings s = small(scene, Technique::bdpt);
+    s.exponents = {32};  // whose weights are often zero
+    RendererOptions options;
+    options.layer_edges = 4;
+    ProgressiveRenderer all(scene.scene, scene.camera, s, options);
+    all.render_passes(16);
+    size_t lit = 0;
+    for (const auto& layer : all.layers()) {
+        RenderSettings only = s;
+        only.exponents = {2};
+        only.only = {layer.strategy};
+        only.unweighted = true;
+        ProgressiveRenderer one(scene.scene, scene.camera, only, {});
+        one.render_passes(16);
+        EXPECT_TRUE(one.film().words() == layer.films->bare.words())
+            << layer.strategy.s << ", " << layer.strategy.t;
+        lit += mean_luminance(one.image()) > 0;
+    }
+    EXPECT_GT(lit, 8u);
 }
 
 // One set of paths weighed with many exponents gives the bits of as many runs.

@@ -32,9 +32,9 @@ RenderSettings with_families(const std::string& words) {
     return s;
 }
 
-RenderSettings planned(const std::string& words, int quarters) {
+RenderSettings planned(const std::string& words, int quarters, bool splats_direct = true) {
     RenderSettings s = small(Technique::automatic);
-    s.plan = Plan{parse_families(words), quarters};
+    s.plan = Plan{parse_families(words), quarters, splats_direct};
     return s;
 }
 
@@ -56,6 +56,8 @@ std::vector<Setting> all_settings() {
         {"bdpt without light tracing", with_families("emitter,next-event,connect"), power2_facts},
         {"plan with few light subpaths", planned("emitter,next-event,light", 1), power2_facts},
         {"plan with few connections", planned("emitter,next-event,light,connect", 1), power2_facts},
+        {"plan without direct splats", planned("emitter,next-event,light,connect", 4, false),
+         power2_facts},
         {"plan with many", planned("emitter,next-event,light,connect", 8), power2_facts},
         {"balance", with_exponents(Technique::path, {1}), no_facts},
         {"list", with_exponents(Technique::bdpt, {2, 1}), no_facts},

@@ -135,6 +135,14 @@ TEST(InspectedSample, ContributionsAreTheFilmsWithEverySetting) {
     s = small();
     s.only = {{2, 2}, {1, 3}, {3, 0}};
     EXPECT_GT(expect_exact(subject(scene, s)).contributions, 0);
+    // A plan that leaves direct light to next event, and one for every fourth sample.
+    for (const Plan& plan : {Plan{{}, 4, false}, Plan{{}, 1, false}}) {
+        s = small(Technique::automatic);
+        s.exponents = {0, 2};
+        s.plan = plan;
+        EXPECT_GT(expect_exact(subject(scene, s)).contributions, 30);
+        EXPECT_GT(expect_exact(subject(make_agreement_scene("area"), s)).contributions, 30);
+    }
     for (const char* families : {"light", "connect", "next-event", "emitter", "emitter,light",
                                  "next-event,connect", "emitter,next-event,light"}) {
         SCOPED_TRACE(families);
@@ -143,6 +151,13 @@ TEST(InspectedSample, ContributionsAreTheFilmsWithEverySetting) {
         s.sampler = SamplerKind::independent;
         EXPECT_GT(expect_exact(subject(scene, s)).contributions, 0);
     }
+}
+
+// The strategy that made the path, among all that could have.
+const InspectedStrategy& found_by(const InspectedPath& p) {
+    return p.strategies.size() == 1
+               ? p.strategies.front()
+               : p.strategies[static_cast<size_t>(p.contribution.strategy.s) - 1];
 }
 
 TEST(InspectedSample, WeightsOfAllStrategiesSumToOne) {
@@ -155,8 +170,8 @@ TEST(InspectedSample, WeightsOfAllStrategiesSumToOne) {
         for (int y = 0; y < s.height; ++y)
             for (int x = 0; x < s.width; ++x)
                 for (const InspectedPath& p : inspect_sample(what, x, y, 3).paths) {
-                    EXPECT_EQ(p.found_by().strategy, p.contribution.strategy);
-                    EXPECT_TRUE(p.found_by().feasible);
+                    EXPECT_EQ(found_by(p).strategy, p.contribution.strategy);
+                    EXPECT_TRUE(found_by(p).feasible);
                     ++paths;
                     for (size_t b = 0; b < s.exponents.size(); ++b) {
                         double weights = 0, direct = 0;
@@ -168,14 +183,14 @@ TEST(InspectedSample, WeightsOfAllStrategiesSumToOne) {
                         EXPECT_NEAR(direct, 1, 1e-12);
                         // The render's own weight stands among those given its pdfs.
                         EXPECT_NEAR(weights, 1, 1e-5) << describe(p.contribution.strategy);
-                        EXPECT_EQ(p.found_by().weights[b], p.contribution.weights[b]);
-                        EXPECT_NEAR(p.found_by().weights[b], p.found_by().direct[b], 1e-5);
+                        EXPECT_EQ(found_by(p).weights[b], p.contribution.weights[b]);
+                        EXPECT_NEAR(found_by(p).weights[b], found_by(p).direct[b], 1e-5);
                     }
                     // f / (n p): what the balance heuristic makes of it does not depend on p.
                     for (const InspectedStrategy& k : p.strategies) {
                         if (!k.feasible || !(k.direct[1] > 1e-6)) continue;
                         EXPECT_NEAR(luminance(k.value) * k.direct[1] /
-                                        (luminance(p.found_by().value) * p.found_by().direct[1]),
+                                        (luminance(found_by(p).value) * found_by(p).direct[1]),
                                     1, 1e-3);
                     }
                 }

@@ -106,6 +106,17 @@ TEST(LeaveOuts, FamiliesDoneAllTheSameChangeNoBit) {
     }
 }
 
+// A plan may be older than the families that are asked for: without next event its direct light is
+// left to light tracing after all.
+TEST(LeaveOuts, DirectSplatsAreSparedForNextEventAlone) {
+    const auto scene = build(plain_room());
+    RenderSettings s = settings(Technique::automatic, 12, 6);
+    s.plan = Plan{{}, 4, false};
+    EXPECT_EQ(0, make_estimator(*scene, eye(), s).direct_share);
+    s.families = parse_families("light");
+    EXPECT_GT(make_estimator(*scene, eye(), s).direct_share, 0);
+}
+
 TEST(LeaveOuts, WhatMayTurnRoundingKeepsTheMean) {
     const SceneDescription d = plain_room();
     const RenderSettings s = settings(Technique::path, 12, 6);
