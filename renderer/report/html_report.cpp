@@ -67,8 +67,8 @@ void add_efficiency_table(HtmlPage& page, const Comparison& c) {
     for (size_t i = 0; i < c.techniques.size(); ++i) {
         const TechniqueResult& t = c.techniques[i];
         const HtmlCell one(i == 0 ? "1" : "-");
-        table.rows.push_back({technique_cell(t), i == 0 ? one : efficiency_cell(t.efficiency),
-                              i == 0 ? one : efficiency_cell(t.efficiency_trimmed),
+        table.rows.push_back({technique_cell(t), i == 0 ? one : efficiency_cell(t.efficiency, t),
+                              i == 0 ? one : efficiency_cell(t.efficiency_trimmed, t),
                               interval_cell(t.fit.slope), interval_cell(t.fit.slope_spp)});
         for (double level : levels) table.rows.back().push_back(time_cell(t, level));
     }
@@ -198,9 +198,10 @@ void add_provenance(HtmlPage& page, const Comparison& c) {
 
 }  // namespace
 
-HtmlCell efficiency_cell(const std::optional<Interval>& efficiency) {
+HtmlCell efficiency_cell(const std::optional<Interval>& efficiency, const TechniqueResult& of) {
     if (!efficiency || !std::isfinite(efficiency->value)) return "-";
     HtmlCell cell = interval_cell(*efficiency);
+    if (!of.not_covered.empty()) return cell;
     if (efficiency->lower > 1) cell.mark = Mark::good;
     if (efficiency->upper < 1) cell.mark = Mark::bad;
     return cell;

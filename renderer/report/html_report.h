@@ -30,7 +30,8 @@ Verdict verdict_of(const Comparison& comparison);
 // the mean.
 HtmlChart convergence_chart(const Comparison& comparison);
 
-// "5.4" with "4.8 to 6.1" under it; good or bad where the whole interval lies above or below one.
-HtmlCell efficiency_cell(const std::optional<Interval>& efficiency);
+// "5.4" with "4.8 to 6.1" under it; good or bad where the whole interval lies above or below one,
+// and the technique covers the scene.
+HtmlCell efficiency_cell(const std::optional<Interval>& efficiency, const TechniqueResult& of);
 
 }  // namespace midway

@@ -25,7 +25,7 @@ bool is_sound(const TechniqueResult& t) { return t.not_covered.empty() && !t.bia
 HtmlCell result_cell(const Comparison& c, const std::string& label) {
     const TechniqueResult* t = find(c, label);
     if (!t) return "-";
-    HtmlCell cell = t == &c.techniques[0] ? HtmlCell("1") : efficiency_cell(t->efficiency);
+    HtmlCell cell = t == &c.techniques[0] ? HtmlCell("1") : efficiency_cell(t->efficiency, *t);
     const auto remark = [&](const char* text) {
         cell.detail += (cell.detail.empty() ? "" : "\n") + std::string(text);
     };

@@ -153,6 +153,21 @@ TEST(InspectedSample, ContributionsAreTheFilmsWithEverySetting) {
     }
 }
 
+TEST(InspectedSample, ListsNoStrategyThatAPlanSpared) {
+    RenderSettings s = small(Technique::automatic);
+    s.plan = Plan{{}, 4, false};
+    const Inspectable what = subject(make_agreement_scene("area"), s);
+    int direct = 0;
+    for (int x = 0; x < s.width; ++x)
+        for (const InspectedPath& p : inspect_sample(what, x, s.height / 2, 0).paths) {
+            if (p.strategies.size() != 3) continue;
+            EXPECT_EQ((Strategy{1, 2}), p.strategies[0].strategy);
+            EXPECT_FALSE(p.strategies[0].feasible);
+            ++direct;
+        }
+    EXPECT_GT(direct, 0);
+}
+
 // The strategy that made the path, among all that could have.
 const InspectedStrategy& found_by(const InspectedPath& p) {
     return p.strategies.size() == 1
