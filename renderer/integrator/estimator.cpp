@@ -16,7 +16,7 @@ bool no_weight(const Estimator& e, const Contribution& c) {
     // A weight that is not a number goes on, to be counted.
     for (int i = 0; i < exponent_count<F>(e); ++i)
         if (c.weights[i] != 0) return false;
-    return !e.keeps_bare;
+    return true;
 }
 
 // Whether anything of a contribution arrives over its edge; `seen` traces the edge's ray, which is

@@ -61,9 +61,6 @@ struct Estimator {
     // keeps its own expectation, whatever the survival probability.
     int roulette_start = 4;
 
-    // Estimates are recorded without their weights too: a weight of zero spares no ray.
-    bool keeps_bare = false;
-
     std::atomic<Work>* watch = nullptr;  // where somebody looks
     void at(Work work) const {
         if (watch) watch->store(work, std::memory_order_relaxed);

@@ -80,7 +80,6 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
     targets_.crop = estimator_.crop;
     targets_.recording = make_recording(settings);
     estimator_.watch = options.watch;
-    estimator_.keeps_bare |= options.layer_edges > 0;
     if (options.statistics) begin_statistics(true, strategy_count(settings.max_bounces + 1) + 1);
 }
 

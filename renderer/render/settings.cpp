@@ -134,7 +134,6 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     // A plan may be older than the families; without next event splats are all there is.
     const bool spared = planned && !s.plan->splats_direct && e.families.next_event;
     e.direct_share = spared ? 0 : direct_share(scene, e.families);
-    e.keeps_bare = s.unweighted;
     return e;
 }
 
