@@ -1,6 +1,6 @@
-// Another renderer's reference: Mitsuba's caustic of a glass ball in a Cornell box (peers/ of the
-// optional data, whose README tells how it was made). Its own noise lies inside the ball's disc,
-// where light seen and lit through glass has one strategy in every renderer.
+// Other renderers' reference: the caustic of a glass ball in a Cornell box (peers/ of the optional
+// data, whose README tells how it was made). Its own noise lies inside the ball's disc, where light
+// seen and lit through glass has one strategy in every renderer.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -28,8 +28,10 @@ double mean_outside(const Image& image) {
     return sum / count;
 }
 
-// Measured: 1.0003 at 128 samples. The mean's standard error is 2e-4 at 8 samples, so that a right
-// program fails 0.2 % with a chance below 1e-10. Fails where refraction forgets eta^2.
+// Measured: 1.0003 at 128 samples, and at 8 over 20 seeds 1.0003 with a spread of 0.0014, so that
+// the quick tier's bound lies 5.5 standard errors away and the full one's 4.9: false alarm below
+// 1e-6 with the smaller. The full tier fails where glass loses 2 % (0.3 % too
+// dark).
 TEST(PeerImages, CausticHasTheirMeanOutsideTheBall) {
     MIDWAY_SKIP_WITHOUT_SHARED("peers/caustic.gltf");
     SceneOptions o;
@@ -46,7 +48,7 @@ TEST(PeerImages, CausticHasTheirMeanOutsideTheBall) {
     r.render_passes(by_tier<std::uint64_t>(8, 128));
     const double ratio = mean_outside(r.image()) / mean_outside(theirs);
     std::cout << "mean outside the ball over theirs: " << ratio << "\n";
-    EXPECT_NEAR(1, ratio, 0.002);
+    EXPECT_NEAR(1, ratio, by_tier(0.008, 0.002));
 }
 
 }  // namespace
