@@ -266,7 +266,7 @@ std::string describe(const Plan& plan) {
 std::string describe(const PlanDecision& decision) {
     const PlanForecast& f = decision.chosen();
     if (decision.forecasts.size() < 2)
-        return describe(f.plan) + ": no other plan covers what it covers";
+        return describe(f.plan) + ": there is no other to choose";
     if (f.cost == 1 && f.error == 1)
         return describe(f.plan) + ": plain bdpt, nothing faster is expected";
     const double percent = 100 * f.time();
