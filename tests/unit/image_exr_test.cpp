@@ -2,8 +2,10 @@
 #include <OpenEXR/ImfThreading.h>
 
 #include <bit>
+#include <chrono>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "image/image.h"
 #include "unit/image_test_files.h"
@@ -145,7 +147,10 @@ TEST(ExrImage, StartsNoThreads) {
     Imf::setGlobalThreadCount(3);
     read_image(folder.file("x.exr"));
     EXPECT_EQ(Imf::globalThreadCount(), 0);
-    EXPECT_EQ(threads(), before);
+    // A thread that has been joined may be listed for a moment, those of other cases too.
+    for (int i = 0; i < 100 && threads() > before; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_LE(threads(), before);
 }
 
 }  // namespace
