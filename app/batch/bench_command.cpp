@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "middle_json.h"
 #include "plan_json.h"
+#include "render/json_text.h"
 #include "render_options.h"
 #include "report/bench.h"
 #include "session_options.h"
@@ -90,7 +91,7 @@ int run(const CLI::App& command, BenchJob& job) {
     j["scene"] = p.description.source;
     j["technique"] = technique;
     j["size"] = {job.settings.width, job.settings.height};
-    fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(j));
     return exit_done;
 }
 

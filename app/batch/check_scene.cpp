@@ -6,6 +6,7 @@
 #include "check.h"
 #include "image/file.h"
 #include "progress.h"
+#include "render/json_text.h"
 #include "report/audit_html.h"
 
 namespace midway {
@@ -215,8 +216,7 @@ int check_scene(const CheckCommand& c) {
         atomic_write(*c.report, audit_html(r, page));
     }
     if (c.json)
-        fmt::print("{}\n",
-                   audit_json(c, r).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(audit_json(c, r)));
     else
         print_audit(c, r);
     return r.passed() ? exit_done : exit_failed;

@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "image/file.h"
+#include "render/json_text.h"
 #include "report/audit_suite.h"
 
 namespace midway {
@@ -94,8 +95,7 @@ int check_suite(const CheckCommand& c) {
     if (c.settings.seed != 0) command += fmt::format(" --seed {}", c.settings.seed);
     if (c.report) atomic_write(*c.report, suite_html(suite, command));
     if (c.json)
-        fmt::print("{}\n", suite_json(suite, command)
-                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}\n", json_text(suite_json(suite, command)));
     else
         print_suite(suite);
     return suite_passed(suite) ? exit_done : exit_failed;

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "image/metrics.h"
+#include "render/json_text.h"
 #include "report/comparison.h"
 #include "report/reference.h"
 
@@ -44,7 +45,7 @@ int run(const DiffCommand& c) {
         nlohmann::ordered_json j;
         for (const auto& [key, value] : figures)
             j[key] = std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
-        fmt::print("{}\n", j.dump(2));
+        fmt::print("{}\n", json_text(j));
     } else {
         for (const auto& [key, value] : figures)
             fmt::print("{:<15} {}\n", key,

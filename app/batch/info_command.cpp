@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "info_cost.h"
 #include "render/coverage.h"
+#include "render/json_text.h"
 #include "render/leave_outs.h"
 #include "render_options.h"
 #include "session_options.h"
@@ -128,7 +129,7 @@ Command add_info_command(CLI::App& app) {
         job->quiet = *json;
         if (*cost) j.update(cost_json(p, *job));
         if (*json) {
-            fmt::print("{}\n", j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+            fmt::print("{}\n", json_text(j));
         } else {
             print_warnings(p.warnings);
             print_text(j);

@@ -6,6 +6,7 @@
 #include "outputs.h"
 #include "plan_json.h"
 #include "render/coverage.h"
+#include "render/json_text.h"
 #include "render/leave_outs.h"
 
 namespace midway {
@@ -96,7 +97,7 @@ void write_stats(const std::string& path, const PreparedScene& p, const RenderSe
                 j["left_out"].push_back({{"what", f == Family::connection ? "connect" : "light"},
                                          {"why", "auto: " + describe(*figures.decision)}});
     }
-    atomic_write(path, j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    atomic_write(path, json_text(j) + "\n");
 }
 
 }  // namespace midway

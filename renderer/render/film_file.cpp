@@ -8,6 +8,7 @@
 
 #include "image/file.h"
 #include "math/hash.h"
+#include "render/json_text.h"
 
 namespace midway {
 namespace {
@@ -35,8 +36,7 @@ std::string header_json(const FilmHeader& h) {
     j["unit_exponent"] = h.unit_exponent;
     j["passes"] = Json::array();
     for (const PassRange& r : h.passes) j["passes"].push_back({r.first, r.end});
-    // The scene's name may be any bytes.
-    return j.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(j, -1);
 }
 
 FilmHeader parse_header(const std::string& text, const std::string& path) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/file.h"
+#include "render/json_text.h"
 #include "report/html_page.h"
 #include "report/summary.h"
 
@@ -89,8 +90,7 @@ void write_suite(const SuiteReport& s, const std::string& directory) {
     j["seconds"] = s.seconds;
     j["scenes"] = Json::array();
     for (const Comparison& c : s.scenes) j["scenes"].push_back(Json::parse(summary_json(c)));
-    atomic_write((folder / "summary.json").string(),
-                 j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    atomic_write((folder / "summary.json").string(), json_text(j) + "\n");
 }
 
 }  // namespace midway

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/file.h"
+#include "render/json_text.h"
 #include "report/convergence.h"
 #include "report/error_log.h"
 
@@ -135,7 +136,7 @@ std::string summary_json(const Comparison& c) {
     j["method"] = c.method;
     j["techniques"] = Json::array();
     for (const TechniqueResult& t : c.techniques) j["techniques"].push_back(technique_json(t));
-    return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(j) + "\n";
 }
 
 void write_comparison(const Comparison& c, const std::string& directory) {
