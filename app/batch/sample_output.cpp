@@ -53,6 +53,7 @@ void print_path(const InspectedPath& p, const InspectedSample& sample) {
     for (size_t i = 0; i < sample.exponents.size(); ++i)
         fmt::print("  weight({:g}) {:.9g}", sample.exponents[i], k.weights[i]);
     if (p.splat) fmt::print("  splat to {},{}", p.x, p.y);
+    if (p.neighbour) fmt::print("  with light subpath {}", sample.neighbours[*p.neighbour].number);
     fmt::print("{}{}\n", p.clamped ? "  clamped" : "", p.usable ? "" : "  not finite");
     for (auto s = p.strategies.rbegin(); s != p.strategies.rend(); ++s)
         if (!(s->strategy == Strategy{1, 1})) print_strategy(*s, sample, s->strategy == k.strategy);
@@ -66,6 +67,11 @@ void print_sample(const InspectedSample& sample) {
                                     : "no light subpath");
     for (size_t i = 0; i < sample.camera.size(); ++i) print_vertex(sample.camera[i], 'C', i);
     for (size_t i = 0; i < sample.light.size(); ++i) print_vertex(sample.light[i], 'L', i);
+    for (const NeighbourSubpath& n : sample.neighbours) {
+        fmt::print("light subpath {} of {},{}, shared\n", n.number, n.x, n.y);
+        for (size_t i = 0; i < n.vertices.size(); ++i) print_vertex(n.vertices[i], 'L', i);
+    }
+    if (!sample.neighbours.empty()) fmt::print("paths of {},{}\n", sample.x, sample.y);
     for (const InspectedPath& p : sample.paths) print_path(p, sample);
 }
 

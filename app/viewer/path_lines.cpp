@@ -114,9 +114,11 @@ void cut(const Eye& eye, const PathLine& line, std::vector<PathLine>& pieces) {
 PathDrawing drawing_of(const InspectedSample& sample, int picked, double far) {
     PathDrawing drawing;
     add_subpath(sample.camera, LineKind::camera, far, drawing);
-    add_subpath(sample.light, LineKind::light, far, drawing);
-    if (picked >= 0 && static_cast<size_t>(picked) < sample.paths.size())
-        add_path(sample.paths[static_cast<size_t>(picked)], far, drawing);
+    const bool any = picked >= 0 && static_cast<size_t>(picked) < sample.paths.size();
+    const InspectedPath* path = any ? &sample.paths[static_cast<size_t>(picked)] : nullptr;
+    add_subpath(path ? light_subpath_of(sample, *path) : sample.light, LineKind::light, far,
+                drawing);
+    if (path) add_path(*path, far, drawing);
     return drawing;
 }
 

@@ -54,6 +54,13 @@ Json vertices_json(const std::vector<InspectedVertex>& vertices) {
     return list;
 }
 
+// The pixel whose light subpath a path connects to, where it is not its own.
+Json neighbour_json(const InspectedSample& sample, const InspectedPath& p) {
+    if (!p.neighbour) return nullptr;
+    const NeighbourSubpath& n = sample.neighbours[*p.neighbour];
+    return {n.x, n.y};
+}
+
 Json inspector_json(const InspectorState& s) {
     Json j{{"searching", s.progress.has_value()},
            {"note", s.note},
@@ -79,6 +86,7 @@ Json inspector_json(const InspectorState& s) {
         j["paths"].push_back({{"strategy", describe(p.contribution.strategy)},
                               {"pixel", {p.x, p.y}},
                               {"gave", {v.x, v.y, v.z}},
+                              {"neighbour", neighbour_json(i.sample, p)},
                               {"strategies", strategies_json(i, p)}});
     }
     return j;

@@ -1,6 +1,6 @@
 // The estimators: `path`, `light` and `bdpt` of any exponent are one estimator with different
 // families of strategies (README, "The method"). A sample is a camera subpath together with a light
-// subpath, and
+// subpath for each of its connections (light_subpaths.h), and
 //   s >= 2, t = 0   the camera walk hits a light         (seed, case 2)
 //   s >= 2, t = 1   next event                           (case 3)
 //   s = 1,  t >= 2  light tracing, splatted              (case 4)
@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "integrator/walk.h"
+#include "integrator/light_subpaths.h"
 
 namespace midway {
 
@@ -39,10 +39,6 @@ struct RayCounts {
         if (by_strategy) ++(*by_strategy)[std::min(strategy_index(k), by_strategy->size() - 1)];
     }
 };
-
-// Surface vertices of one light subpath; kept by each worker so that nothing is allocated per
-// sample.
-using LightSubpath = std::vector<PathVertex>;
 
 // Next event from the camera vertex (t = 1); empty where nothing arrives.
 template <Facts F = no_facts>
@@ -110,10 +106,37 @@ void record_own(const Estimator& e, const std::optional<Contribution>& c, Record
     e.at(Work::shading);
 }
 
-// Walks the camera subpath and forms every strategy that ends on it.
+// The light subpaths of one camera sample: splatted, and the one that it is paired with kept.
 template <Facts F = no_facts, class Record>
-void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
-                          const LightSubpath& light, Record& record, RayCounts& rays) {
+void trace_light_subpaths(const Estimator& e, int x, int y, std::uint64_t pass, int place,
+                          LightSubpaths& light, Record& record, RayCounts& rays) {
+    if (!e.families.needs_light_subpaths()) return;
+    LightSubpath* kept = &light.of[static_cast<size_t>(place)];
+    for_each_subpath(e, x, y, pass, [&](std::uint64_t subpath) {
+        trace_light_subpath<F>(e, subpath, pass, *kept, record, rays);
+        if (!kept->empty()) light.longest = std::max(light.longest, kept->back().index);
+        kept = &light.spare;
+    });
+}
+
+// Every connection from a vertex of the camera sample at `place`.
+template <Facts F = no_facts, class Record>
+void connect_to_subpaths(const Estimator& e, const PathVertex& v, const LightSubpaths& light,
+                         int place, Record& record, RayCounts& rays) {
+    const int last = std::min(light.longest, e.max_bounces - v.index);
+    for (int j = 1; j <= last; ++j) {
+        const int from = partner(place, v.index, j, light.count);
+        const PathVertex* l = vertex_at(light.of[static_cast<size_t>(from)], j);
+        if (l && record.wants({v.index + 1, j + 1}))
+            record_own(e, connect<F>(e, v, *l, rays), record);
+    }
+}
+
+// Walks the camera subpath and forms every strategy that ends on it. `place`: of the sample in the
+// group whose light subpaths are given.
+template <Facts F = no_facts, class Record>
+void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass, int place,
+                          const LightSubpaths& light, Record& record, RayCounts& rays) {
     ++rays.camera_paths;
     Walk walk = start_camera_walk(e, x, y, pass);
     for (;;) {
@@ -127,34 +150,65 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass,
         if (v.connectible) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
                 record_own(e, connect_to_light<F>(e, v, walk.numbers.connect, rays), record);
-            if constexpr (!F.path_tracer)
-                for (const PathVertex& l : light) {
-                    if (v.index + l.index > e.max_bounces) break;
-                    if (record.wants({v.index + 1, l.index + 1}))
-                        record_own(e, connect<F>(e, v, l, rays), record);
-                }
+            if constexpr (!F.path_tracer) connect_to_subpaths<F>(e, v, light, place, record, rays);
         }
         if (has_found_all(e, walk.index) || !scatter(walk)) return;
     }
 }
 
-// The sample of one pixel in one pass, with the light subpaths that belong to it.
-template <Facts F = no_facts, class Record>
-void estimate(const Estimator& e, int x, int y, std::uint64_t pass, LightSubpath& scratch,
-              Record& record, RayCounts& rays) {
-    scratch.clear();
-    if constexpr (F.path_tracer) {
-        trace_camera_subpath<F>(e, x, y, pass, scratch, record, rays);
-    } else {
-        if (!e.families.needs_light_subpaths())
-            return trace_camera_subpath<F>(e, x, y, pass, scratch, record, rays);
-        const auto area = static_cast<std::uint64_t>(e.crop.area());
-        const std::uint64_t first = paired_subpath(e, x, y, pass);
-        if (first < e.light_subpaths) trace_light_subpath<F>(e, first, pass, scratch, record, rays);
-        trace_camera_subpath<F>(e, x, y, pass, scratch, record, rays);
-        for (std::uint64_t more = first + area; more < e.light_subpaths; more += area)
-            trace_light_subpath<F>(e, more, pass, scratch, record, rays);
+// The camera samples of a group of pixels in one pass, with the light subpaths that belong to them.
+// Record has, besides,
+//   void begin(int x, int y, std::uint64_t pass)   what follows is of that pixel's sample
+//   void end()
+// False: `go_on`, asked before every walk, said no.
+template <Facts F = no_facts, class Record, class GoOn>
+bool estimate(const Estimator& e, const PixelGroup& g, std::uint64_t pass, LightSubpaths& light,
+              Record& record, RayCounts& rays, const GoOn& go_on) {
+    const auto each = [&](const auto& trace) {
+        for (int place = 0; place < g.size(); ++place) {
+            if (!go_on()) return false;
+            record.begin(g.x0 + place, g.y, pass);
+            trace(g.x0 + place, place);
+            e.at(Work::film);
+            record.end();
+            e.at(Work::other);
+        }
+        return true;
+    };
+    if constexpr (!F.path_tracer) {
+        light.begin(g.size());
+        const auto light_walks = [&](int x, int place) {
+            trace_light_subpaths<F>(e, x, g.y, pass, place, light, record, rays);
+        };
+        if (e.families.needs_light_subpaths() && !each(light_walks)) return false;
     }
+    return each([&](int x, int place) {
+        trace_camera_subpath<F>(e, x, g.y, pass, place, light, record, rays);
+    });
+}
+
+// What a record may be that hears nothing.
+struct DeafRecord {
+    void contribution(const Contribution&) {}
+    void splat(int, int, const Contribution&) {}
+    bool wants(const Strategy& k) const { return family_of(k) != Family::light_tracing; }
+};
+
+// The sample of one pixel in one pass alone, with all that its group would give it.
+template <class Record>
+void estimate_alone(const Estimator& e, int x, int y, std::uint64_t pass, LightSubpaths& light,
+                    Record& record, RayCounts& rays) {
+    const PixelGroup g = group_of(e.crop, x, y);
+    light.begin(g.size());
+    DeafRecord deaf;
+    RayCounts others;
+    for (int place = 0; place < g.size(); ++place) {
+        if (g.x0 + place == x)
+            trace_light_subpaths(e, x, y, pass, place, light, record, rays);
+        else if (e.families.connection)
+            trace_light_subpaths(e, g.x0 + place, y, pass, place, light, deaf, others);
+    }
+    trace_camera_subpath(e, x, y, pass, x - g.x0, light, record, rays);
 }
 
 }  // namespace midway

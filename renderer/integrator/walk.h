@@ -156,7 +156,7 @@ struct Walk {
 
 SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
 SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
-// The light subpath that the camera sample of a pixel meets in a pass. Where this is not below
+// The light subpath that belongs to the sample of a pixel in a pass. Where this is not below
 // e.light_subpaths, the sample has none; where adding the crop's area (again) is, it has more.
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);
 

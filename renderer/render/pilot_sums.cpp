@@ -107,7 +107,7 @@ PixelVariances variances(const std::array<Moments, 2>& halves, int block) {
 }
 
 PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, int row,
-                            PilotRecord& record, LightSubpath& scratch, PilotSums& result) {
+                            PilotRecord& record, LightSubpaths& light, PilotSums& result) {
     const std::uint64_t stratum = std::uint64_t(row) * pilot_columns + column;
     const std::uint64_t jitter = hash_combine(pilot_seed, stratum);
     const auto place = [](int i, std::uint32_t random, int strata, int size) {
@@ -117,16 +117,20 @@ PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, in
     const int x = e.crop.x0 + place(column, std::uint32_t(jitter), pilot_columns, e.crop.width());
     const int y = e.crop.y0 + place(row, std::uint32_t(jitter >> 32), pilot_rows, e.crop.height());
     std::array<Moments, 2> halves{};
-    for (int i = 0; i < pilot_passes; ++i) {
+    // The samples of a half share their light subpaths, as those of neighbouring pixels do in a
+    // render; the halves share nothing.
+    static_assert(pilot_passes == 2 * group_pixels);
+    for (int half = 0; half < 2; ++half) {
         // A small crop has the same pixel in many strata: passes of their own for all of them.
-        const std::uint64_t pass = pilot_passes * stratum + i;
-        record.begin(x, y);
-        scratch.clear();
-        if (e.families.needs_light_subpaths())
-            trace_light_subpath(e, paired_subpath(e, x, y, pass), pass, scratch, record,
-                                result.light);
-        trace_camera_subpath(e, x, y, pass, scratch, record, result.camera);
-        add_to(halves[i & 1], record.gathered());
+        const std::uint64_t first = pilot_passes * stratum + half;
+        light.begin(group_pixels);
+        for (int i = 0; i < group_pixels; ++i)
+            trace_light_subpaths(e, x, y, first + 2 * i, i, light, record, result.light);
+        for (int i = 0; i < group_pixels; ++i) {
+            record.begin(x, y);
+            trace_camera_subpath(e, x, y, first + 2 * i, i, light, record, result.camera);
+            add_to(halves[half], record.gathered());
+        }
     }
     return variances(halves, grid.block(x, y));
 }
@@ -138,11 +142,11 @@ PilotSums sample_chunk(const Estimator& e, const Grid& grid, const Candidates& c
     result.shadow_rays.resize(strategy_count(e.max_bounces + 1) + 1);
     result.camera.by_strategy = result.light.by_strategy = &result.shadow_rays;
     PilotRecord record(grid, candidates, result.blocks);
-    LightSubpath scratch;
+    LightSubpaths light;
     for (int row = chunk * rows_per_chunk; row < (chunk + 1) * rows_per_chunk; ++row)
         for (int column = 0; column < pilot_columns; ++column) {
             if (control && !control->go_on()) return {};
-            result.pixels.push_back(sample_pixel(e, grid, column, row, record, scratch, result));
+            result.pixels.push_back(sample_pixel(e, grid, column, row, record, light, result));
         }
     result.camera.by_strategy = result.light.by_strategy = nullptr;
     return result;

@@ -29,7 +29,8 @@ struct Tiles {
 // Enough tiles for the threads to end together, also in a small image.
 Tiles make_tiles(const PixelRect& crop, std::uint64_t passes, int threads) {
     Tiles tiles{crop};
-    while (tiles.size > 4 && tiles.count() * passes < 16 * std::uint64_t(threads)) tiles.size /= 2;
+    while (tiles.size > group_pixels && tiles.count() * passes < 16 * std::uint64_t(threads))
+        tiles.size /= 2;
     return tiles;
 }
 
@@ -96,31 +97,30 @@ template <Facts F, bool observed>
 bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
     const ScopedFlushToZero flush;
     const Tiles& tiles = batch.tiles;
-    LightSubpath scratch;
-    scratch.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
+    LightSubpaths light;
+    for (LightSubpath& l : light.of)
+        l.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
     FilmRecord<observed> record(targets_, sums);
+    const auto go_on = [&] { return !batch.control || batch.control->go_on(); };
     const auto render_block = [&](const PixelRect& r, std::uint64_t pass) {
         for (int y = r.y0; y < r.y1; ++y)
-            for (int x = r.x0; x < r.x1; ++x) {
-                if (batch.control && !batch.control->go_on()) return false;
-                record.begin(x, y, pass);
-                estimate<F>(estimator_, x, y, pass, scratch, record, sums.rays);
-                estimator_.at(Work::film);
-                record.end();
-                estimator_.at(Work::other);
-            }
+            for (int x = r.x0; x < r.x1; x += group_pixels)
+                if (!estimate<F>(estimator_, group_of(tiles.crop, x, y), pass, light, record,
+                                 sums.rays, go_on))
+                    return false;
         return true;
     };
-    // Where thumbnails are gathered, the samples of one of their pixels follow each other.
-    const int block = observed && targets_.cells ? targets_.cells->box : tiles.size;
+    // Where thumbnails are gathered, the samples of one of their pixels nearly follow each other.
+    const int rows = observed && targets_.cells ? targets_.cells->box : tiles.size;
+    const int columns = (rows + group_pixels - 1) / group_pixels * group_pixels;
     for (std::uint64_t i = batch.next++; i < batch.items; i = batch.next++) {
         if (!batch.gate.enter(i / tiles.count(), batch.control)) return true;
         const std::uint64_t pass = first_pass_ + passes_ + i / tiles.count();
         const PixelRect tile = tiles.at(i % tiles.count());
         for (int y0 = tile.y0, y1 = 0; y0 < tile.y1; y0 = y1) {
-            y1 = std::min(tile.y1, block_end(y0, tiles.crop.y0, block));
+            y1 = std::min(tile.y1, block_end(y0, tiles.crop.y0, rows));
             for (int x0 = tile.x0, x1 = 0; x0 < tile.x1; x0 = x1) {
-                x1 = std::min(tile.x1, block_end(x0, tiles.crop.x0, block));
+                x1 = std::min(tile.x1, block_end(x0, tiles.crop.x0, columns));
                 if (!render_block({x0, y0, x1, y1}, pass)) return false;
             }
         }

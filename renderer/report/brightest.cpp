@@ -55,10 +55,10 @@ class Replayer {
         watch_.own = x == search_.x && y == search_.y;
         watch_.sum = vec3(0);
         if (watch_.own)
-            estimate(e_, x, y, pass, scratch_, watch_, rays_);
+            estimate_alone(e_, x, y, pass, light_, watch_, rays_);
         else
             for_each_subpath(e_, x, y, pass, [&](std::uint64_t subpath) {
-                trace_light_subpath(e_, subpath, pass, scratch_, watch_, rays_);
+                trace_light_subpath(e_, subpath, pass, light_.spare, watch_, rays_);
             });
         keep_brighter(best, {x, y, pass, watch_.sum, luminance(watch_.sum)});
     }
@@ -69,7 +69,7 @@ class Replayer {
     const BrightestSearch& search_;
     const Estimator& e_;
     Watch watch_;
-    LightSubpath scratch_;
+    LightSubpaths light_;
     RayCounts rays_;
 };
 

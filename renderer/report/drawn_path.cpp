@@ -187,12 +187,17 @@ void visit_next_event(const Estimator& e, const RecordedWalk& camera, const Visi
     visit(p);
 }
 
-void visit_connections(const Estimator& e, const RecordedWalk& camera, const RecordedWalk& light,
-                       const Visit& visit) {
+void visit_connections(const Estimator& e, const DrawnSample& sample, const Visit& visit) {
+    const RecordedWalk& camera = sample.camera;
     const PathVertex& v = camera.now.vertex;
-    for (size_t j = 1; j < light.vertices.size(); ++j) {
-        const PathVertex& l = light.vertices[j];
-        if (!l.connectible || v.index + l.index > e.max_bounces) continue;
+    const int group = static_cast<int>(sample.lights.size());
+    for (int j = 1; group > 0 && v.index + j <= e.max_bounces; ++j) {
+        const auto from = static_cast<size_t>(partner(sample.place, v.index, j, group));
+        if (!sample.lights[from]) continue;
+        const RecordedWalk& light = *sample.lights[from];
+        if (static_cast<size_t>(j) >= light.vertices.size()) continue;
+        const PathVertex& l = light.vertices[static_cast<size_t>(j)];
+        if (!l.connectible) continue;
         RayCounts rays;
         const std::optional<Contribution> c = connect(e, v, l, rays);
         if (!c) continue;
@@ -203,6 +208,7 @@ void visit_connections(const Estimator& e, const RecordedWalk& camera, const Rec
         add_light_pdfs(p, light, l.index - 1);
         add_camera_end(p, v.index);
         add_light_end(p, v.index + 1);
+        p.met = static_cast<int>(from);
         visit(p);
     }
 }
@@ -266,13 +272,21 @@ void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
 }  // namespace
 
 DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& found) {
+    const PixelGroup g = group_of(e.crop, x, y);
     DrawnSample sample;
-    // The camera meets the first light subpath; further ones are splatted alone.
-    if (e.families.needs_light_subpaths())
-        for_each_subpath(e, x, y, pass, [&](std::uint64_t subpath) {
-            auto light = record_light(e, subpath, pass, found);
-            if (subpath == paired_subpath(e, x, y, pass)) sample.light = std::move(light);
+    sample.place = x - g.x0;
+    sample.lights.resize(static_cast<size_t>(g.size()));
+    // Of each camera sample's light subpaths the first is met; further ones are splatted alone.
+    for (int place = 0; place < g.size() && e.families.needs_light_subpaths(); ++place) {
+        const bool own = place == sample.place;
+        const Visit nobody = [](DrawnPath&) {};
+        for_each_subpath(e, g.x0 + place, y, pass, [&](std::uint64_t subpath) {
+            const bool paired = subpath == paired_subpath(e, g.x0 + place, y, pass);
+            if (!own && !paired) return;
+            auto light = record_light(e, subpath, pass, own ? found : nobody);
+            if (paired) sample.lights[static_cast<size_t>(place)] = std::move(light);
         });
+    }
     // What the camera's walk finds belongs to its own pixel.
     const Visit visit = [&](DrawnPath& p) {
         p.x = x;
@@ -289,7 +303,7 @@ DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, con
         if (reached != Reached::surface || camera.now.index > e.max_bounces) return sample;
         if (camera.now.vertex.connectible) {
             visit_next_event(e, camera, visit);
-            if (sample.light) visit_connections(e, camera, *sample.light, visit);
+            visit_connections(e, sample, visit);
         }
         if (!scatter_on_record(camera)) return sample;
     }

@@ -19,6 +19,7 @@ struct DrawnPath {
     bool infinite = false;
     int light_id = -1;  // of the scene
     int x = 0, y = 0;   // the pixel it contributes to
+    int met = -1;  // of a connection: whose light subpath it meets, by place in DrawnSample::lights
 
     int edges() const { return pdfs.edges(); }
 };
@@ -41,12 +42,17 @@ struct RecordedWalk {
 
 struct DrawnSample {
     RecordedWalk camera;
-    std::optional<RecordedWalk> light;  // where the families use one, and it carries something
+    // Of the whole group that shares them, by place; empty where the families use none, or where it
+    // carries nothing.
+    std::vector<std::optional<RecordedWalk>> lights;
+    int place = 0;  // of this sample in the group
+
+    const std::optional<RecordedWalk>& light() const { return lights[static_cast<size_t>(place)]; }
 };
 
 // Calls `visit` with every path that the sample of a pixel draws, each with its contribution, and
-// also for families that are not in use; in the order of estimate(). A path of one edge (a lamp
-// seen directly) has one strategy and no weights to form.
+// also for families that are not in use; in the order of estimate_alone(). A path of one edge (a
+// lamp seen directly) has one strategy and no weights to form.
 DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass,
                        const std::function<void(DrawnPath&)>& visit);
 

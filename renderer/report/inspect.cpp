@@ -178,6 +178,20 @@ std::vector<InspectedVertex> light_subpath(const Inspection& in, const RecordedW
     return list;
 }
 
+// `met`: by path, whose light subpath it meets, as DrawnPath::met.
+void add_neighbours(const Inspection& in, const DrawnSample& drawn, const std::vector<int>& met,
+                    InspectedSample& s) {
+    const int first = s.x - drawn.place;
+    for (int place = 0; place < static_cast<int>(drawn.lights.size()); ++place) {
+        if (place == drawn.place || std::ranges::find(met, place) == met.end()) continue;
+        for (size_t i = 0; i < met.size(); ++i)
+            if (met[i] == place) s.paths[i].neighbour = s.neighbours.size();
+        s.neighbours.push_back({first + place, s.y,
+                                paired_subpath(in.e, first + place, s.y, s.pass),
+                                light_subpath(in, *drawn.lights[static_cast<size_t>(place)])});
+    }
+}
+
 // A lamp or the sky seen directly: emitter hits alone show it.
 std::vector<InspectedStrategy> direct_strategy(const Inspection& in, const DrawnPath& p) {
     InspectedStrategy s;
@@ -298,13 +312,21 @@ InspectedSample inspect_sample(const Inspectable& what, int x, int y, std::uint6
     if (e.families.needs_light_subpaths() && paired < e.light_subpaths) s.light_subpath = paired;
     s.exponents = what.settings.exponents;
     s.unit_exponent = film_unit_exponent(scene.total_power);
+    std::vector<int> met;
     const DrawnSample drawn = draw_paths(e, x, y, pass, [&](const DrawnPath& p) {
-        if (is_recorded(e, in.recording, p.contribution.strategy))
-            s.paths.push_back(inspect_path(in, p, s.unit_exponent));
+        if (!is_recorded(e, in.recording, p.contribution.strategy)) return;
+        s.paths.push_back(inspect_path(in, p, s.unit_exponent));
+        met.push_back(p.met);
     });
     s.camera = camera_subpath(in, drawn.camera);
-    if (drawn.light) s.light = light_subpath(in, *drawn.light);
+    if (drawn.light()) s.light = light_subpath(in, *drawn.light());
+    add_neighbours(in, drawn, met, s);
     return s;
+}
+
+const std::vector<InspectedVertex>& light_subpath_of(const InspectedSample& sample,
+                                                     const InspectedPath& path) {
+    return path.neighbour ? sample.neighbours[*path.neighbour].vertices : sample.light;
 }
 
 std::vector<vec3> recorded_in(const InspectedSample& s, int x, int y) {

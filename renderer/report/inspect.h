@@ -74,6 +74,15 @@ struct InspectedPath {
     std::vector<dvec3> points;
     bool infinite = false;
     InspectedVertex light_end;  // what the path ends on
+    // Of a connection to a neighbour's light subpath: which of InspectedSample::neighbours.
+    std::optional<size_t> neighbour;
+};
+
+// A light subpath that belongs to the sample of a neighbouring pixel, which shares it.
+struct NeighbourSubpath {
+    int x = 0, y = 0;
+    std::uint64_t number = 0;
+    std::vector<InspectedVertex> vertices;  // from the light on
 };
 
 struct InspectedSample {
@@ -83,8 +92,13 @@ struct InspectedSample {
     std::vector<double> exponents;
     int unit_exponent = 0;
     std::vector<InspectedVertex> camera, light;  // the subpaths, from their own ends on
+    std::vector<NeighbourSubpath> neighbours;    // those that it connected to
     std::vector<InspectedPath> paths;            // in the order in which they were found
 };
+
+// The light subpath that a path is made with: its own vertices, or a neighbour's.
+const std::vector<InspectedVertex>& light_subpath_of(const InspectedSample& sample,
+                                                     const InspectedPath& path);
 
 // What a sample belongs to: a scene seen by a camera with some settings.
 struct Inspectable {

@@ -81,16 +81,15 @@ Outcome render_always(const AgreementScene& a, const RenderSettings& settings) {
     targets.crop = e.crop;
     targets.recording = make_recording(settings);
     WorkerSums sums;
-    LightSubpath scratch;
+    LightSubpaths light;
     {
         FilmRecord<false> record(targets, sums);
+        const auto go_on = [] { return true; };
         for (std::uint64_t pass = 0; pass < passes; ++pass)
             for (int y = e.crop.y0; y < e.crop.y1; ++y)
-                for (int x = e.crop.x0; x < e.crop.x1; ++x) {
-                    record.begin(x, y, pass);
-                    estimate<no_facts>(e, x, y, pass, scratch, record, sums.rays);
-                    record.end();
-                }
+                for (int x = e.crop.x0; x < e.crop.x1; x += group_pixels)
+                    estimate<no_facts>(e, group_of(e.crop, x, y), pass, light, record, sums.rays,
+                                       go_on);
     }
     Outcome o{{}, sums.rays.closest, sums.rays.shadow, sums.nonfinite.count};
     for (const Film& film : films) o.words.push_back(film.words());

@@ -47,11 +47,11 @@ std::vector<Film> film_of_sample(const Inspectable& what, int x, int y, std::uin
     targets.crop = e.crop;
     targets.recording = make_recording(what.settings);
     WorkerSums sums;
-    LightSubpath scratch;
+    LightSubpaths light;
     {
         FilmRecord<false> record(targets, sums);
         record.begin(x, y, pass);
-        estimate(e, x, y, pass, scratch, record, sums.rays);
+        estimate_alone(e, x, y, pass, light, record, sums.rays);
         record.end();
     }
     return films;

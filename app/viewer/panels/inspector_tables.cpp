@@ -230,7 +230,10 @@ std::string short_value(double v) {
 
 void draw_vertex_table(const Inspection& inspection, const InspectedPath* picked) {
     const Column columns[] = {
-        {"", "C: vertices of the camera's walk, L: of the light's; as named in the image.", 1.6f},
+        {"",
+         "C: vertices of the camera's walk, L: of the light's; as named in the image. A path that "
+         "connects to the light's walk of a neighbouring pixel brings that one with it.",
+         1.6f},
         {"Vertex", "The object and its material, or what the walk starts or ends on.", 0},
         {"Scatters",
          "smooth: a mirror or clear glass, which no connection can join; rough: the roughness of "
@@ -249,7 +252,8 @@ void draw_vertex_table(const Inspection& inspection, const InspectedPath* picked
          4.2f}};
     if (!begin_table("vertices", columns)) return;
     vertex_rows(inspection.sample.camera, false, picked);
-    vertex_rows(inspection.sample.light, true, picked);
+    const InspectedSample& sample = inspection.sample;
+    vertex_rows(picked ? light_subpath_of(sample, *picked) : sample.light, true, picked);
     ImGui::EndTable();
 }
 
