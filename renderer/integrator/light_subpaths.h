@@ -28,7 +28,7 @@ inline PixelGroup group_of(const PixelRect& crop, int x, int y) {
 
 // At which place of a group of `count` samples the light subpath belongs whose vertex j is
 // connected to vertex i of the camera sample at `place`: its own for i = j = 1. Every light vertex
-// is met once for each i. Three and eight have no divisor in common, so pairs far apart meet first.
+// is met once for each i. Along either subpath, eight vertices in a row meet eight different ones.
 inline int partner(int place, int i, int j, int count) {
     return (place + (i - 1) + 3 * (j - 1)) % count;
 }

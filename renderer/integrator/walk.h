@@ -48,7 +48,7 @@ struct Estimator {
     SamplerKind sampler = SamplerKind::sobol;
     // Per pass: n of eq. (22).
     std::uint64_t light_subpaths = 1;
-    // n of connections: the share of the camera samples that meet a light subpath to connect to.
+    // n of connections: the share of the camera samples that have a light subpath to connect to.
     double connection_share = 1;
     // What counts of light_subpaths where light tracing competes with next event for direct light,
     // paths of two edges: n there is light_subpaths times this. A camera sample's share of a pixel
