@@ -116,8 +116,7 @@ PathDrawing drawing_of(const InspectedSample& sample, int picked, double far) {
     add_subpath(sample.camera, LineKind::camera, far, drawing);
     const bool any = picked >= 0 && static_cast<size_t>(picked) < sample.paths.size();
     const InspectedPath* path = any ? &sample.paths[static_cast<size_t>(picked)] : nullptr;
-    add_subpath(path ? light_subpath_of(sample, *path) : sample.light, LineKind::light, far,
-                drawing);
+    add_subpath(light_subpath_of(sample, path), LineKind::light, far, drawing);
     if (path) add_path(*path, far, drawing);
     return drawing;
 }

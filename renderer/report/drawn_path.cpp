@@ -213,6 +213,7 @@ void visit_connections(const Estimator& e, const DrawnSample& sample, const Visi
     }
 }
 
+// Without `visit` nothing is splatted.
 std::optional<RecordedWalk> record_light(const Estimator& e, std::uint64_t subpath,
                                          std::uint64_t pass, const Visit& visit) {
     const std::optional<Walk> start = start_light_walk(e, subpath, pass);
@@ -225,7 +226,7 @@ std::optional<RecordedWalk> record_light(const Estimator& e, std::uint64_t subpa
         if (reached != Reached::surface) break;
         add_vertex(w);
         // Where light tracing has no samples its weight would be a division by zero.
-        if (w.now.vertex.connectible && e.share_of(w.now.index + 1) > 0)
+        if (visit && w.now.vertex.connectible && e.share_of(w.now.index + 1) > 0)
             visit_light_tracing(e, w, visit);
         if (!scatter_on_record(w)) break;
     }
@@ -279,12 +280,11 @@ DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, con
     // Of each camera sample's light subpaths the first is met; further ones are splatted alone.
     for (int place = 0; place < g.size() && e.families.needs_light_subpaths(); ++place) {
         const bool own = place == sample.place;
-        const Visit nobody = [](DrawnPath&) {};
+        const std::uint64_t paired = paired_subpath(e, g.x0 + place, y, pass);
         for_each_subpath(e, g.x0 + place, y, pass, [&](std::uint64_t subpath) {
-            const bool paired = subpath == paired_subpath(e, g.x0 + place, y, pass);
-            if (!own && !paired) return;
-            auto light = record_light(e, subpath, pass, own ? found : nobody);
-            if (paired) sample.lights[static_cast<size_t>(place)] = std::move(light);
+            if (!own && subpath != paired) return;
+            auto light = record_light(e, subpath, pass, own ? found : Visit{});
+            if (subpath == paired) sample.lights[static_cast<size_t>(place)] = std::move(light);
         });
     }
     // What the camera's walk finds belongs to its own pixel.

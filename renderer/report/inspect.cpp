@@ -325,8 +325,9 @@ InspectedSample inspect_sample(const Inspectable& what, int x, int y, std::uint6
 }
 
 const std::vector<InspectedVertex>& light_subpath_of(const InspectedSample& sample,
-                                                     const InspectedPath& path) {
-    return path.neighbour ? sample.neighbours[*path.neighbour].vertices : sample.light;
+                                                     const InspectedPath* path) {
+    if (!path || !path->neighbour) return sample.light;
+    return sample.neighbours[*path->neighbour].vertices;
 }
 
 std::vector<vec3> recorded_in(const InspectedSample& s, int x, int y) {

@@ -96,9 +96,10 @@ struct InspectedSample {
     std::vector<InspectedPath> paths;            // in the order in which they were found
 };
 
-// The light subpath that a path is made with: its own vertices, or a neighbour's.
+// The light subpath that a path is made with: the sample's own, also without a path, or a
+// neighbour's.
 const std::vector<InspectedVertex>& light_subpath_of(const InspectedSample& sample,
-                                                     const InspectedPath& path);
+                                                     const InspectedPath* path);
 
 // What a sample belongs to: a scene seen by a camera with some settings.
 struct Inspectable {

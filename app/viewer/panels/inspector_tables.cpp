@@ -252,8 +252,7 @@ void draw_vertex_table(const Inspection& inspection, const InspectedPath* picked
          4.2f}};
     if (!begin_table("vertices", columns)) return;
     vertex_rows(inspection.sample.camera, false, picked);
-    const InspectedSample& sample = inspection.sample;
-    vertex_rows(picked ? light_subpath_of(sample, *picked) : sample.light, true, picked);
+    vertex_rows(light_subpath_of(inspection.sample, picked), true, picked);
     ImGui::EndTable();
 }
 
