@@ -107,6 +107,7 @@ Json weights_json(const AuditResult& r) {
                        {"estimator_against_direct", deviation_json(w.estimator)},
                        {"sum_own_pdfs", deviation_json(w.own_sum)},
                        {"bias", w.bias},
+                       {"bias_standard_error", w.bias_error},
                        {"partial_sums", range_json(w.partial_sums)},
                        {"decades_to_overflow", number(decades_to_overflow(w))},
                        {"float_paths", f.paths},

@@ -16,7 +16,6 @@ namespace midway {
 
 // The pixels that share: a run of one row of the crop, as many as group_pixels but for the last run
 // of a row.
-inline constexpr int group_pixels = 8;
 struct PixelGroup {
     int x0 = 0, x1 = 0, y = 0;  // x1 excluded
     int size() const { return x1 - x0; }

@@ -20,6 +20,19 @@ std::uint64_t coin(const Walk& w) {
            std::uint64_t(w.index) * 0x94d049bb133111ebull;
 }
 
+// A permutation of the pixels that leaves neighbours together, so that the subpaths that they share
+// come from different strata of the lights. The groups, and each one in itself, are turned by
+// chance: every pixel has exactly the same chance of each subpath, or it would meet some strata
+// more often. What is left of an image beyond whole groups keeps to itself.
+std::uint64_t permute_groups(std::uint64_t pixel, std::uint64_t pixels, std::uint64_t key) {
+    const std::uint64_t groups = pixels / group_pixels, group = pixel / group_pixels;
+    const std::uint64_t turn = mix64(key + (group + 1) * golden);
+    const std::uint64_t first = group_pixels * groups, rest = pixels - first;
+    if (group == groups) return first + (pixel - first + turn % rest) % rest;
+    const std::uint64_t to = (permute_index(group, groups, key) + mix64(key) % groups) % groups;
+    return group_pixels * to + (pixel + turn) % group_pixels;
+}
+
 // The strategy that the previous vertex's vcm stands for. On the camera side vertex i
 // stands for the connection of its i predecessors to a longer light subpath (light tracing for i =
 // 1); on the light side for i light vertices (next event for i = 1).
@@ -85,7 +98,7 @@ std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pas
     const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     const auto key = [&](std::uint64_t p) { return hash_combine(e.seed, 0x70616972 + p); };
-    if (e.light_subpaths >= pixels) return permute_index(pixel, pixels, key(pass));
+    if (e.light_subpaths >= pixels) return permute_groups(pixel, pixels, key(pass));
     // Fewer subpaths than pixels go round among all of them before the next permutation, in even
     // and in odd passes apart: the halves of the film stay independent. The permutation turned by
     // chance gives every pixel exactly the same chance.

@@ -156,6 +156,9 @@ struct Walk {
 
 SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
 SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
+// So many camera samples, of neighbouring pixels, share their light subpaths (light_subpaths.h).
+inline constexpr int group_pixels = 8;
+
 // The light subpath that belongs to the sample of a pixel in a pass. Where this is not below
 // e.light_subpaths, the sample has none; where adding the crop's area (again) is, it has more.
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);

@@ -45,8 +45,9 @@ struct WeightAudit {
     Deviation estimator;  // |estimator's own weight - direct|: the rounding of float geometry
     Deviation own_sum;    // |sum - 1| when every strategy evaluates pdfs from its own side
     // Sum of contribution * (sum - 1) over the sum of contributions: relative error of the image's
-    // mean that own pdfs imply.
-    double bias = 0;
+    // mean that own pdfs imply, with its standard error: where surfaces are smooth, a single path
+    // may stand for most of it.
+    double bias = 0, bias_error = 0;
     Range partial_sums;  // vcm and vc of all vertices, decades
 };
 

@@ -46,7 +46,7 @@ void add_weights(HtmlPage& page, const AuditResult& r) {
         t.rows.push_back({fmt::format("{:g}", w.exponent), short_number(w.recursive.worst()),
                           short_number(w.same_sum.worst()), short_number(w.own_sum.quantile(0.5)),
                           short_number(w.own_sum.quantile(0.999)), short_number(w.own_sum.worst()),
-                          fmt::format("{:+.1e}", w.bias)});
+                          fmt::format("{:+.1e} &plusmn; {:.1e}", w.bias, w.bias_error)});
     page.add_heading("Weights");
     page.add_table(t);
 }

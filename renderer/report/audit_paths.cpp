@@ -66,6 +66,9 @@ Int128 PathAudit::fixed(float value) {
     return to_fixed(value, unit_, ignored);
 }
 
+// About the scene's power, so that the film's unit (2^-90 of it) suits squares over it too.
+double PathAudit::square_scale() const { return std::ldexp(1.0, unit_ + 90); }
+
 void PathAudit::add_sample(const Estimator& e, const PathSetting& setting, int x, int y,
                            std::uint64_t pass) {
     ++samples_;
@@ -176,8 +179,10 @@ void PathAudit::add_own_pdfs(const Estimator& e, const PathSetting& setting, con
         const float carried =
             luminance(p.contribution.value) * static_cast<float>(p.contribution.weights[b]);
         if (!std::isfinite(carried) || !std::isfinite(sum)) continue;
+        const float missed = carried * static_cast<float>(sum - 1);
         w.energy += fixed(carried);
-        w.bias += fixed(carried * static_cast<float>(sum - 1));
+        w.bias += fixed(missed);
+        w.bias_squares += fixed(static_cast<float>(missed * (missed / square_scale())));
     }
 }
 
@@ -191,6 +196,7 @@ void PathAudit::merge(const PathAudit& o) {
         w.own_sum.merge(v.own_sum);
         w.energy += v.energy;
         w.bias += v.bias;
+        w.bias_squares += v.bias_squares;
         w.partial_sums.merge(v.partial_sums);
     }
     for (size_t i = 0; i < drawn_.size(); ++i) drawn_[i] += o.drawn_[i];
@@ -225,8 +231,10 @@ void PathAudit::report(AuditResult& r) const {
     for (size_t b = 0; b < weights_.size(); ++b) {
         const Weights& w = weights_[b];
         const double energy = from_fixed(w.energy, unit_);
+        const double squares = from_fixed(w.bias_squares, unit_) * square_scale();
         r.weights.push_back({audited_exponents[b], w.recursive, w.same_sum, w.estimator, w.own_sum,
-                             energy > 0 ? from_fixed(w.bias, unit_) / energy : 0, w.partial_sums});
+                             energy > 0 ? from_fixed(w.bias, unit_) / energy : 0,
+                             energy > 0 ? std::sqrt(squares) / energy : 0, w.partial_sums});
     }
     r.pdf_w = pdf_w_;
     r.pdf_a = pdf_a_;

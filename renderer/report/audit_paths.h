@@ -50,10 +50,11 @@ struct PathAudit {
                       AuditPlace place);
     void add_ranges(const DrawnPath& path);
     Int128 fixed(float value);
+    double square_scale() const;  // what squares are divided by, to fit the film's range
 
     struct Weights {
         Deviation recursive, same_sum, estimator, own_sum;
-        Int128 energy = 0, bias = 0;
+        Int128 energy = 0, bias = 0, bias_squares = 0;
         Range partial_sums;
     };
     std::array<Weights, audited_exponents.size()> weights_;
