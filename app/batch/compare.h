@@ -15,7 +15,7 @@ struct CompareCommand {
     SceneOptions scene;
     RenderSettings settings;
     RenderWords words;
-    std::vector<std::string> techniques{"path", "light", "bdpt:0", "bdpt:1", "bdpt:2"};
+    std::vector<std::string> techniques{"path", "light", "bdpt:0", "bdpt:1", "bdpt:2", "auto"};
     std::optional<double> seconds;
     int seeds = 4, threads = 0;
     std::optional<std::string> reference, references, suite;
@@ -24,6 +24,9 @@ struct CompareCommand {
     std::string typed;  // the whole command, to make it again
     bool quiet = false;
 };
+
+// Throws std::runtime_error, with one line, where it cannot be made.
+void make_folder(const std::string& folder);
 
 // The plan of one scene, which is not loaded yet. `folder` is the scene's own.
 ComparePlan make_compare_plan(const CompareCommand& command, const std::string& name,

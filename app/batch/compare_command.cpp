@@ -17,7 +17,14 @@ int run(CompareCommand& c, const CLI::App& options) {
         usage("--reference-time: the reference is given and not rendered");
     if (c.suite && c.reference) usage("--reference: a suite renders a reference for each scene");
     catch_interrupt();
-    if (c.suite) return run_suite(c, options);
+    if (c.suite) {
+        for (const char* own : {"--sky", "--sky-rotation", "--sky-strength", "--lamp-strength",
+                                "--camera", "--look-at", "--fov", "--aperture", "--focus"})
+            if (options.count(own) > 0)
+                usage(std::string(own) + ": the scenes of a suite have their own (" + *c.suite +
+                      ")");
+        return run_suite(c, options);
+    }
     const std::string name = std::filesystem::path(c.scene.path).stem().string();
     if (const auto session = take_session(options, c.scene, c.quiet)) {
         // What belongs to a technique is the comparison's own.
@@ -29,7 +36,7 @@ int run(CompareCommand& c, const CLI::App& options) {
         take_settings(options, s, c.settings);
     }
     ComparePlan plan = make_compare_plan(c, name.empty() ? "scene" : name, c.folder);
-    std::filesystem::create_directories(c.folder);
+    make_folder(c.folder);
     CompareProgress progress(c.quiet, planned_seconds(plan));
     std::optional<Comparison> result = run_compare_scene(plan, c.scene, progress, c.quiet);
     if (!result) {

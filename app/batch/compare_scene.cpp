@@ -47,6 +47,14 @@ void print_results(const Comparison& c, const std::string& folder) {
 
 }  // namespace
 
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error("cannot make the folder: " + error.message() + " (" + folder +
+                                 "); name another one with -o");
+}
+
 ComparePlan make_compare_plan(const CompareCommand& c, const std::string& name,
                               const std::string& folder) {
     ComparePlan p;
@@ -59,6 +67,7 @@ ComparePlan make_compare_plan(const CompareCommand& c, const std::string& name,
             if (p.techniques[i].label == p.techniques.back().label)
                 usage("--techniques: \"" + p.techniques.back().label + "\" stands there twice");
     }
+    if (p.techniques.empty()) usage("--techniques: name at least one");
     if (!c.seconds) usage("--time: say how many seconds each technique and seed may render");
     p.seconds = *c.seconds;
     p.seeds = c.seeds;

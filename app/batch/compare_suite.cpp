@@ -74,6 +74,8 @@ SceneOptions parse_scene(const Json& j, const std::string& path) {
         }
     }
     if (o.path.empty()) refuse("a scene names no file", path);
+    if (o.path.ends_with(".midway"))
+        refuse("a session is no scene of a suite: name the glTF file, with its options", path);
     if (!fs::exists(o.path))
         throw std::runtime_error("no such scene (" + o.path + "); correct " + path);
     return o;
@@ -145,7 +147,7 @@ int run_suite(CompareCommand c, const CLI::App& options) {
             std::int64_t(suite.scenes.size() * plans.back().techniques.size());
         planned += planned_seconds(plans.back());
     }
-    fs::create_directories(c.folder);
+    make_folder(c.folder);
     SuiteReport report;
     report.name = fs::path(*c.suite).stem().string();
     report.command = c.typed;
@@ -157,7 +159,9 @@ int run_suite(CompareCommand c, const CLI::App& options) {
         std::optional<Comparison> scene =
             run_compare_scene(plans[i], suite.scenes[i].options, progress, c.quiet);
         report.complete = scene && scene->complete;
-        if (scene) report.scenes.push_back(std::move(*scene));
+        // Stopped before it had anything: what an earlier run has written stays.
+        if (!scene) break;
+        report.scenes.push_back(std::move(*scene));
         report.seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         write_suite(report, c.folder);

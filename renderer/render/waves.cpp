@@ -15,7 +15,7 @@ double render_in_waves(ProgressiveRenderer& r, const WaveLimits& limits,
                        const std::function<bool()>& stop,
                        const std::function<void(const WaveState&)>& progress) {
     using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    auto start = Clock::now();
     const auto seconds = [&] {
         return std::chrono::duration<double>(Clock::now() - start).count();
     };
@@ -43,7 +43,10 @@ double render_in_waves(ProgressiveRenderer& r, const WaveLimits& limits,
         if (limits.passes) wave = std::min(wave, *limits.passes - finished);
         const double in_wave = double(wave);
         r.render_passes(wave, [&](double share) { progress(state(share * in_wave)); });
+        // What is done between waves, as writing a checkpoint, is no rendering.
+        const auto between = Clock::now();
         progress(state(0));
+        start += Clock::now() - between;
     }
     return seconds();
 }

@@ -41,6 +41,7 @@ struct ReferenceInfo {
     // Error of the reference itself (NaN: unknown), already subtracted from all curves: below the
     // floor no curve means anything, and within ten times of it little.
     double floor_mse = unknown_number, floor_relmse = unknown_number;
+    double floor_relmse_trimmed = unknown_number;
     Image image;
     std::optional<Image> variance;  // of its pixels, where it is known
 };

@@ -70,6 +70,7 @@ std::optional<RenderedReference> get_reference(const ComparePlan& plan, const Co
     const ReferenceFloor floor = reference_floor(r->reference);
     r->info.floor_mse = floor.mse;
     r->info.floor_relmse = floor.relmse;
+    r->info.floor_relmse_trimmed = floor.relmse_trimmed;
     r->info.image = r->reference.image;
     r->info.variance = r->reference.variance;
     return r;
@@ -95,19 +96,31 @@ std::vector<PathKind> reference_gaps(const ComparePlan& plan, const ReferenceInf
     return {};
 }
 
-// Why a difference of the means is no fault of the technique; empty where it is. What neither it
-// nor the reference covers makes no difference.
-std::string bias_excuse(const ComparePlan& plan, size_t technique,
-                        const std::vector<PathKind>& missing_in_reference) {
+// Whether all of `kinds` are among the others.
+bool within(const std::vector<PathKind>& kinds, const std::vector<PathKind>& others) {
+    return std::ranges::all_of(
+        kinds, [&](const PathKind& k) { return std::ranges::find(others, k) != others.end(); });
+}
+
+// What neither the technique nor the reference covers makes no difference.
+BiasExcuse bias_excuse(const ComparePlan& plan, size_t technique,
+                       const std::vector<PathKind>& missing_in_reference) {
     const RenderSettings& s = plan.settings;
     const TechniqueChoice& t = plan.techniques[technique];
     const auto missing = uncovered_kinds(*plan.scene, t.settings);
-    if (missing != missing_in_reference)
-        return missing.empty() ? "the reference does not cover the scene"
-                               : "it does not cover " + uncovered_paths(*plan.scene, t.settings)[0];
-    if (s.clamp) return "contributions are clamped";
-    if (!s.only.empty() || s.unweighted) return "not all of the estimate is recorded";
-    return "";
+    BiasExcuse excuse;
+    excuse.dark = !within(missing, missing_in_reference);
+    excuse.bright = !within(missing_in_reference, missing);
+    if (excuse.dark)
+        excuse.why = "it does not cover " + uncovered_paths(*plan.scene, t.settings)[0];
+    else if (excuse.bright)
+        excuse.why = "the reference does not cover the scene";
+    if (!s.only.empty() || s.unweighted) return {"not all of the estimate is recorded", true, true};
+    if (s.clamp) {
+        excuse.dark = true;
+        if (excuse.why.empty()) excuse.why = "contributions are clamped";
+    }
+    return excuse;
 }
 
 bool share_a_family(const Families& a, const Families& b) {
@@ -143,7 +156,7 @@ void take_curves(TechniqueResult& t, TechniqueRun run, Comparison& c) {
 }
 
 BiasVerdict bias_of(const TechniqueRun& run, const ComparePlan& plan, const Reference& reference,
-                    const std::string& excuse) {
+                    const BiasExcuse& excuse) {
     BiasTest test;
     for (const CurveRun& r : run.seeds) {
         if (!r.curve.counts) continue;

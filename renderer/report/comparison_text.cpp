@@ -30,12 +30,16 @@ void warn_of_technique(const TechniqueResult& t, Comparison& c) {
              " (its errors hold what is missing; its efficiency there means nothing)");
     if (t.bias.flagged) warn("differs from the reference in the mean: " + t.bias.text);
     if (t.nonfinite > 0) warn(fmt::format("gave {} samples that were not finite", t.nonfinite));
-    const double end = t.final_mean.relmse, floor = c.reference.floor_relmse;
-    if (!t.curves.empty() && end < floor_margin * floor)
-        warn(
-            fmt::format("ends at relMSE {:.3g}, within {:g} times of the reference's own {:.3g}: "
-                        "give the reference more time (--reference-time)",
-                        end, floor_margin, floor));
+    const double end = t.final_mean.relmse;
+    const auto warn_of_floor = [&](const char* metric, double error, double floor) {
+        if (!t.curves.empty() && error < floor_margin * floor)
+            warn(
+                fmt::format("ends at {} {:.3g}, within {:g} times of the reference's own {:.3g}: "
+                            "give the reference more time (--reference-time)",
+                            metric, error, floor_margin, floor));
+    };
+    warn_of_floor("relMSE", end, c.reference.floor_relmse);
+    warn_of_floor("trimmed relMSE", t.final_mean.relmse_trimmed, c.reference.floor_relmse_trimmed);
     if (t.final_mean.relmse_trimmed > 0 && end > heavy_tail * t.final_mean.relmse_trimmed)
         warn(
             "has most of its error in 0.1 % of the pixels: mean, slope, efficiency and z-score "
@@ -88,7 +92,10 @@ std::string formula_text(const Comparison& c, const Reference& r) {
         "relMSE = mean over pixels and channels of ((x - r)^2 - v) / (r^2 + 0.01 m^2), with x the "
         "image, r the reference, m the mean luminance of r and v the variance of r. relMSE "
         "trimmed: without the 0.1 % of the pixels that are worst. MSE = mean of (x - r)^2 - v. "
-        "SMAPE = mean of |x - r| / (|x| + |r|). Bias = mean luminance of x over m, less 1. ";
+        "SMAPE = mean of |x - r| / (|x| + |r|). FLIP: mean of the map of Andersson et al. (2020) "
+        "at "
+        "67 pixels per degree, of colours cut off at 1 without exposure. Bias = mean luminance of "
+        "x over m, less 1. ";
     if (r.variance)
         text += fmt::format(
             "v is known from the spread of independent parts of the reference; its relMSE of "
@@ -104,8 +111,9 @@ std::string method_text(const Comparison& c) {
     return fmt::format(
         "Techniques took turns in slices of at most half a second of whole passes; errors are "
         "those of "
-        "the first pass that ends after {:g} s x 2^(-k/4). Times are of rendering; measuring took "
-        "{:.3g} s in all and is in no curve. Intervals hold with 95 % confidence and come from the "
+        "the first pass that ends after {:g} s x 2^(-k/4). Times are of rendering, and begin with "
+        "what auto took to decide, measured once; measuring took {:.3g} s in all and is in no "
+        "curve. Intervals hold with 95 % confidence and come from the "
         "spread between seeds (Student's t; jackknife for slopes and efficiencies), because the "
         "points of one curve are correlated. Slope: least squares of log relMSE of the mean over "
         "seeds, above the floor. Efficiency: relMSE x seconds of the first technique over that of "
@@ -122,8 +130,9 @@ void add_warnings(Comparison& c) {
     if (c.seeds < 2) c.warnings.push_back("one seed alone: no interval is known (--seeds)");
     if (std::isnan(c.reference.floor_relmse))
         c.warnings.push_back(
-            "the error of the reference is not known: curves flatten where they meet it. A .film, "
-            "or an EXR with a layer \"variance\" (--aov), would tell it");
+            "the error of the reference is not known: curves flatten where they meet it, and its "
+            "mean is taken to be as noisy as each technique's. A .film, or an EXR with a layer "
+            "\"variance\" (--aov), would tell it");
     warn_of_short_seeds(c);
     for (const TechniqueResult& t : c.techniques) warn_of_technique(t, c);
 }

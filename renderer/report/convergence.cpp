@@ -133,7 +133,9 @@ void advance(Runner& r, const ConvergencePlan& plan, double until) {
         const double passes = double(r.renderer->passes());
         std::uint64_t wave = 1;
         if (passes > 0) {
-            const double fits = 0.9 * (until - r.run.seconds) / (r.run.seconds / passes);
+            // Half of what is left, and in the end single passes: the curve ends with the first
+            // pass after its time even where the machine slows down.
+            const double fits = 0.5 * (until - r.run.seconds) / (r.run.seconds / passes);
             wave = static_cast<std::uint64_t>(std::clamp(fits, 1.0, passes));
         }
         const auto start = Clock::now();

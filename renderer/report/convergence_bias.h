@@ -18,13 +18,20 @@ namespace midway {
 // The chance that a run flags any of its techniques although all are right.
 constexpr double bias_false_alarm = 1e-3;
 
+// Why a difference is no fault, and which way the technique's mean may then differ: what it misses
+// makes it too dark, never too bright.
+struct BiasExcuse {
+    std::string why;
+    bool dark = false, bright = false;
+};
+
 struct BiasTest {
     std::vector<double> luminances;  // mean of the image, of each half of each seed
+    // One whose own error is not known is taken to be as noisy as the technique: taken as exact, it
+    // would have right techniques called biased.
     MeasuredMean reference;
     std::int64_t comparisons = 1;  // techniques of the run, of all scenes of a suite
-    // Why a difference is no fault: the technique does not cover the scene, or is biased on
-    // purpose. Empty where it would be one.
-    std::string excuse;
+    BiasExcuse excuse;
 };
 
 BiasVerdict judge_bias(const BiasTest& test);

@@ -51,10 +51,7 @@ std::vector<YChoice> y_choices(const Comparison& c) {
     return {
         {{"relmse", "relMSE", true, relmse, band},
          [](const BandPoint& p) -> const Interval& { return p.relmse; }},
-        {{"relmse_trimmed",
-          "trimmed relMSE",
-          true,
-          {},
+        {{"relmse_trimmed", "trimmed relMSE", true, floor_levels(c.reference.floor_relmse_trimmed),
           "Without the worst 0.1 % of the pixels. " + band},
          [](const BandPoint& p) -> const Interval& { return p.relmse_trimmed; }},
         {{"mse", "MSE", true, mse, band},

@@ -200,13 +200,20 @@ void check_reference_size(const Reference& r, int width, int height, const std::
 
 ReferenceFloor reference_floor(const Reference& r) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    if (!r.variance) return {unknown, unknown};
+    if (!r.variance) return {unknown, unknown, unknown};
     DiffOptions options;
     options.flip = false;
+    // An image as far from the reference, in every pixel, as the reference is from the truth.
+    Image other = r.image;
+    for (size_t i = 0; i < other.pixels.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            other.pixels[i][k] +=
+                std::copysign(std::sqrt(r.variance->pixels[i][k]), other.pixels[i][k]);
+    const double trimmed = compare_images(other, r.image, options).relmse_trimmed;
     options.reference_variance = &*r.variance;
     // The error of the reference against itself: nothing, less its variance.
     const ImageError e = compare_images(r.image, r.image, options);
-    return {-e.mse, -e.relmse};
+    return {-e.mse, -e.relmse, trimmed};
 }
 
 std::uint64_t reference_hash(const Reference& r) {

@@ -50,9 +50,10 @@ Reference load_reference(const std::string& path);
 void check_reference_size(const Reference& reference, int width, int height,
                           const std::string& path);
 
-// The reference's own mse and relmse; NaN where unknown.
+// The reference's own mse and relmse; NaN where unknown. Trimmed: without the pixels of the largest
+// variance (a curve loses those where technique and reference differ most).
 struct ReferenceFloor {
-    double mse = 0, relmse = 0;
+    double mse = 0, relmse = 0, relmse_trimmed = 0;
 };
 ReferenceFloor reference_floor(const Reference& reference);
 

@@ -126,10 +126,14 @@ std::string summary_json(const Comparison& c) {
     for (const NamedValue& s : c.settings) j["settings"][s.name] = s.value;
     j["machine"] = machine_json(c.machine);
     const ReferenceInfo& r = c.reference;
-    j["reference"] = {
-        {"source", r.source},   {"technique", r.technique}, {"spp", r.spp},
-        {"seconds", r.seconds}, {"floor_mse", r.floor_mse}, {"floor_relmse", r.floor_relmse},
-        {"why", r.why}};
+    j["reference"] = {{"source", r.source},
+                      {"technique", r.technique},
+                      {"spp", r.spp},
+                      {"seconds", r.seconds},
+                      {"floor_mse", r.floor_mse},
+                      {"floor_relmse", r.floor_relmse},
+                      {"floor_relmse_trimmed", r.floor_relmse_trimmed},
+                      {"why", r.why}};
     j["left_out"] = c.left_out;
     j["warnings"] = c.warnings;
     j["formula"] = c.formula;

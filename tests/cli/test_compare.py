@@ -154,13 +154,14 @@ class Compare(CliTest):
         self.assertAlmostEqual(1 / 1.2 - 1, bias["relative"]["value"], delta=0.02)
 
     def test_one_percent_is_flagged_on_cornell_within_a_minute(self):
-        # Two techniques, three seeds, two seconds each: then the mean of one of them is made 1 %
+        # Two techniques, three seeds, two seconds each (more for a slow build): then the mean of one of them is made 1 %
         # too bright where the run keeps it, and the same command goes on from there. False alarm of
         # the first half: 1e-3 by the limit's own making, and less on a quiet machine than on none:
         # the more samples, the better the test's normality holds.
         scene = harness.SOURCE / "assets" / "cornell.glb"
-        command = ("compare", scene, "-o", self.out, "--size", "64x64", "--time", 2, "--seeds", 3,
-                   "--techniques", "path,bdpt", "--reference-time", 8)
+        command = ("compare", scene, "-o", self.out, "--size", "64x64", "--time",
+                   2 * harness.slow, "--seeds", 3, "--techniques", "path,bdpt",
+                   "--reference-time", 8 * harness.slow)
         self.run_midway(*command)
         sound = {t["label"]: t["bias"] for t in self.summary()["techniques"]}
         for kept in (self.out / "films").glob("bdpt-2-seed*.json"):
@@ -195,6 +196,7 @@ class Compare(CliTest):
         for arguments in (["--time", 1, "--techniques", "path,path"], ["--techniques", "path"],
                           ["--time", 1, "--techniques", "photons"], ["--time", 1, "--seeds", 0],
                           ["--time", -1], ["--time", 1, "--suite", self.scene],
+                          ["--time", 1, "--techniques", ""],
                           ["--time", 1, "--reference", "a.exr", "--reference-time", 2]):
             self.refused("compare", self.scene, "-o", self.out, *arguments, status=2)
         self.refused("compare", "-o", self.out, "--time", 1, status=2)
@@ -229,6 +231,16 @@ class Suite(CliTest):
         self.run_midway("compare", "--suite", self.write(), "-o", self.out, "--techniques", "path")
         self.assertNotIn("`bdpt:2`", (self.out / "table.md").read_text())
 
+    def test_a_stop_before_the_first_curve_leaves_the_page_as_it_was(self):
+        command = ("compare", "--suite", self.write(), "-o", self.out)
+        self.run_midway(*command)
+        written = [self.out / name for name in ("index.html", "summary.json", "table.md")]
+        before = [file.read_bytes() for file in written]
+        process = self.start(*command, "--reference-time", 60)
+        self.wait_until_rendering(process)
+        self.assertEqual(130, self.interrupt(process))
+        self.assertEqual(before, [file.read_bytes() for file in written])
+
     def test_refuses_broken_suites(self):
         scene = {"name": "one", "scene": "tiny.gltf"}
         for scenes in ([], [scene, scene], [{**scene, "name": "../x"}], [{**scene, "name": ""}],
@@ -238,6 +250,14 @@ class Suite(CliTest):
         for change in ({"time": -1}, {"seeds": "many"}, {"paint": 1},
                        {"reference-time": -1}):
             self.refused("compare", "--suite", self.write(**change), "-o", self.out, status=1)
+        self.refused("compare", "--suite", self.write(techniques=[]), "-o", self.out, status=2)
+        sessions = [{**scene, "scene": "tiny.midway"}]
+        (self.folder / "tiny.midway").write_text("{}")
+        self.refused("compare", "--suite", self.write(scenes=sessions), "-o", self.out, status=1)
+        # Options of a scene belong to the file; a file is no folder.
+        for option in (["--sky", "1,1,1"], ["--lamp-strength", 2], ["--camera", 0]):
+            self.refused("compare", "--suite", self.write(), "-o", self.out, *option, status=2)
+        self.refused("compare", "--suite", self.write(), "-o", self.folder / "tiny.midway", status=1)
         self.refused("compare", "--suite", self.folder / "none.json", "-o", self.out, status=1)
 
 

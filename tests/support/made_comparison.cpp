@@ -150,6 +150,7 @@ Comparison made_comparison(const std::string& name) {
                    "bdpt:2 had the least error times seconds in a pilot of 2 s each.",
                    4e-7 * 3,
                    4e-5,
+                   3e-5,
                    room()};
     for (const Made& made : techniques)
         c.techniques.push_back(made_technique(made, c.reference.image));

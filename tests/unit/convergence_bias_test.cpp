@@ -66,12 +66,18 @@ TEST(BiasVerdict, FlagsOnePlantedPercentAmongFortyTechniques) {
 TEST(BiasVerdict, WhatATechniqueDoesNotCoverIsNoFault) {
     std::mt19937_64 random(13);
     BiasTest t = run_of({-0.3}, random);
-    t.excuse = "it does not cover what is seen in mirrors";
+    t.excuse = {"it does not cover what is seen in mirrors", true, false};
     const BiasVerdict v = judge_bias(t);
     EXPECT_GT(std::abs(v.z), v.limit);
     EXPECT_FALSE(v.flagged);
     EXPECT_TRUE(v.expected);
     EXPECT_NE(v.text.find("mirrors"), std::string::npos);
+    // What it misses makes it darker, never brighter.
+    t = run_of({+0.3}, random);
+    t.excuse = {"it does not cover what is seen in mirrors", true, false};
+    EXPECT_TRUE(judge_bias(t).flagged);
+    t.excuse = {"the reference does not cover the scene", false, true};
+    EXPECT_FALSE(judge_bias(t).flagged);
 }
 
 TEST(BiasVerdict, TheReferencesOwnErrorCounts) {
@@ -80,6 +86,23 @@ TEST(BiasVerdict, TheReferencesOwnErrorCounts) {
     EXPECT_TRUE(judge_bias(t).flagged);
     t.reference.estimate.standard_error = 0.02 * t.reference.estimate.mean;
     EXPECT_FALSE(judge_bias(t).flagged);
+}
+
+// A reference of as many samples that keeps its error to itself: right techniques are flagged no
+// more often than by one that tells it. 2000 runs, limit of chance 1 % (false alarm 1e-5).
+TEST(BiasVerdict, AReferenceOfUnknownErrorIsNotTakenAsExact) {
+    std::mt19937_64 random(15);
+    int above = 0;
+    for (int i = 0; i < 2000; ++i) {
+        BiasTest t = run_of({0, 0.004, 0.004 / std::sqrt(6.0)}, random);
+        t.reference.freedom = 0;
+        t.reference.estimate.standard_error = 0;
+        above += std::abs(judge_bias(t).z) > normal_limit(0.01);
+    }
+    EXPECT_LT(above, 20 + 4.4 * std::sqrt(20.0));
+    BiasTest t = run_of({0.05}, random);
+    t.reference = {{2, 0}, 0};
+    EXPECT_TRUE(judge_bias(t).flagged);
 }
 
 TEST(BiasVerdict, SaysWhereItCannotTell) {

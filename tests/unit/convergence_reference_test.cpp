@@ -79,6 +79,8 @@ TEST(NoisyReference, FloorIsItsOwnError) {
     // One difference in each of 3600 values: 3 % standard error each.
     EXPECT_NEAR(floor.mse / e.mse, 1, 0.2);
     EXPECT_NEAR(floor.relmse / e.relmse, 1, 0.2);
+    EXPECT_NEAR(floor.relmse_trimmed / e.relmse_trimmed, 1, 0.2);
+    EXPECT_LT(floor.relmse_trimmed, floor.relmse);
     // Of two halves the variance is a quarter of their squared difference.
     const Image v = resolve_variance(film, pass_counts(0, 64));
     for (size_t i = 0; i < v.pixels.size(); ++i)
