@@ -59,6 +59,9 @@ PixelFilter make_filter(FilterKind kind) {
     for (size_t i = 0; i < weights.size(); ++i)
         weights[i] = profile_value(kind, f.radius * (2 * (i + 0.5) / weights.size() - 1), f.radius);
     f.profile = make_distribution(weights);
+    for (size_t i = 0; i < weights.size(); ++i)
+        f.values.push_back(static_cast<float>(f.profile.probability(i) * f.profile.size()) /
+                           (2 * f.radius));
     return f;
 }
 
@@ -72,10 +75,9 @@ vec2 sample_filter(const PixelFilter& f, const vec2& u) {
 }
 
 float filter_value(const PixelFilter& f, float x) {
-    const float place = (x / f.radius + 1) * 0.5f * f.profile.size();
-    if (!(place >= 0 && place < f.profile.size())) return 0;
-    return static_cast<float>(f.profile.probability(static_cast<int>(place)) * f.profile.size()) /
-           (2 * f.radius);
+    const auto cells = static_cast<float>(f.values.size());
+    const float place = (x / f.radius + 1) * 0.5f * cells;
+    return place >= 0 && place < cells ? f.values[static_cast<size_t>(place)] : 0;
 }
 
 SplatPixel choose_splat_pixel(const PixelFilter& f, const vec2& film, const vec2& u) {

@@ -16,8 +16,9 @@ enum class FilterKind : std::uint8_t { box, gaussian, blackman_harris };
 
 struct PixelFilter {
     FilterKind kind = FilterKind::box;
-    float radius = 0.5f;     // pixels
-    Distribution1D profile;  // cells over [-radius, radius]
+    float radius = 0.5f;        // pixels
+    Distribution1D profile;     // cells over [-radius, radius]
+    std::vector<float> values;  // filter_value() of each cell
 };
 
 PixelFilter make_filter(FilterKind kind);

@@ -13,7 +13,9 @@ void fill_weights(const Estimator& e, Contribution& c, const Weigh& weigh) {
 
 template <Facts F>
 bool no_weight(const Estimator& e, const Contribution& c) {
-    // A weight that is not a number goes on, to be counted.
+    // A weight that is not a number goes on, to be counted. Bare estimates lose nothing: a weight
+    // below double's range belongs to a path that its strategy draws less than once in 1e9 samples
+    // (densities 1e9 apart for exponent 32, 1e38 for 8).
     for (int i = 0; i < exponent_count<F>(e); ++i)
         if (c.weights[i] != 0) return false;
     return true;
@@ -119,6 +121,9 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, con
     const double distance2 = length_squared(d);
     if (!(distance2 > 0)) return found;
     const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
+    if (!may_scatter(v.bsdf, v.to_previous, direction) ||
+        !may_scatter(l.bsdf, l.to_previous, -direction))
+        return found;
     const BsdfEval fv = eval_bsdf(v.bsdf, v.to_previous, direction, Transport::radiance);
     if (is_black(fv.f)) return found;
     const BsdfEval fl = eval_bsdf(l.bsdf, l.to_previous, -direction, Transport::importance);
@@ -151,6 +156,7 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, 
     const double distance2 = length_squared(d);
     if (!(distance2 > 0)) return splat;
     const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
+    if (!may_scatter(l.bsdf, l.to_previous, direction)) return splat;
     const std::optional<vec2> film = film_position(e.camera, lens, -direction);
     if (!film) return splat;
     const SplatPixel pixel = choose_splat_pixel(e.filter, *film, {u.z, u.w});

@@ -108,11 +108,10 @@ void record_own(const Estimator& e, const std::optional<Contribution>& c, Record
 
 // The light subpaths of one camera sample: splatted, and the one that it is paired with kept.
 template <Facts F = no_facts, class Record>
-void trace_light_subpaths(const Estimator& e, int x, int y, std::uint64_t pass, int place,
+void trace_light_subpaths(const Estimator& e, std::uint64_t paired, std::uint64_t pass, int place,
                           LightSubpaths& light, Record& record, RayCounts& rays) {
-    if (!e.families.needs_light_subpaths()) return;
     LightSubpath* kept = &light.of[static_cast<size_t>(place)];
-    for_each_subpath(e, x, y, pass, [&](std::uint64_t subpath) {
+    for_each_subpath(e, paired, [&](std::uint64_t subpath) {
         trace_light_subpath<F>(e, subpath, pass, *kept, record, rays);
         if (!kept->empty()) light.longest = std::max(light.longest, kept->back().index);
         kept = &light.spare;
@@ -159,7 +158,7 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass, 
 // The camera samples of a group of pixels in one pass, with the light subpaths that belong to them.
 // Record has, besides,
 //   void begin(int x, int y, std::uint64_t pass)   what follows is of that pixel's sample
-//   void end()
+//   void end()                                     its own pixel has got all that it will get
 // False: `go_on`, asked before every walk, said no.
 template <Facts F = no_facts, class Record, class GoOn>
 bool estimate(const Estimator& e, const PixelGroup& g, std::uint64_t pass, LightSubpaths& light,
@@ -168,22 +167,26 @@ bool estimate(const Estimator& e, const PixelGroup& g, std::uint64_t pass, Light
         for (int place = 0; place < g.size(); ++place) {
             if (!go_on()) return false;
             record.begin(g.x0 + place, g.y, pass);
-            trace(g.x0 + place, place);
-            e.at(Work::film);
-            record.end();
-            e.at(Work::other);
+            trace(place);
         }
         return true;
     };
     if constexpr (!F.path_tracer) {
         light.begin(g.size());
-        const auto light_walks = [&](int x, int place) {
-            trace_light_subpaths<F>(e, x, g.y, pass, place, light, record, rays);
-        };
-        if (e.families.needs_light_subpaths() && !each(light_walks)) return false;
+        if (e.families.needs_light_subpaths()) {
+            const auto paired = paired_subpaths(e, g.x0, g.y, g.size(), pass);
+            const bool done = each([&](int place) {
+                trace_light_subpaths<F>(e, paired[static_cast<size_t>(place)], pass, place, light,
+                                        record, rays);
+            });
+            if (!done) return false;
+        }
     }
-    return each([&](int x, int place) {
-        trace_camera_subpath<F>(e, x, g.y, pass, place, light, record, rays);
+    return each([&](int place) {
+        trace_camera_subpath<F>(e, g.x0 + place, g.y, pass, place, light, record, rays);
+        e.at(Work::film);
+        record.end();
+        e.at(Work::other);
     });
 }
 
@@ -202,11 +205,13 @@ void estimate_alone(const Estimator& e, int x, int y, std::uint64_t pass, LightS
     light.begin(g.size());
     DeafRecord deaf;
     RayCounts others;
-    for (int place = 0; place < g.size(); ++place) {
+    const auto paired = paired_subpaths(e, g.x0, g.y, g.size(), pass);
+    for (int place = 0; place < g.size() && e.families.needs_light_subpaths(); ++place) {
+        const std::uint64_t first = paired[static_cast<size_t>(place)];
         if (g.x0 + place == x)
-            trace_light_subpaths(e, x, y, pass, place, light, record, rays);
+            trace_light_subpaths(e, first, pass, place, light, record, rays);
         else if (e.families.connection)
-            trace_light_subpaths(e, g.x0 + place, y, pass, place, light, deaf, others);
+            trace_light_subpaths(e, first, pass, place, light, deaf, others);
     }
     trace_camera_subpath(e, x, y, pass, x - g.x0, light, record, rays);
 }

@@ -21,16 +21,27 @@ std::uint64_t coin(const Walk& w) {
 }
 
 // A permutation of the pixels that leaves neighbours together, so that the subpaths that they share
-// come from different strata of the lights. The groups, and each one in itself, are turned by
-// chance: every pixel has exactly the same chance of each subpath, or it would meet some strata
-// more often. What is left of an image beyond whole groups keeps to itself.
-std::uint64_t permute_groups(std::uint64_t pixel, std::uint64_t pixels, std::uint64_t key) {
+// come from different strata of the lights: where the pixels from `first` on go. The groups, and
+// each one in itself, are turned by chance: every pixel has exactly the same chance of each
+// subpath, or it would meet some strata more often. What is left of an image beyond whole groups
+// keeps to itself.
+struct PermutedGroup {
+    std::uint64_t first = 0, to = 0;
+    std::uint32_t size = 1, turn = 0;
+
+    std::uint64_t operator()(std::uint64_t pixel) const {
+        return to + (static_cast<std::uint32_t>(pixel - first) + turn) % size;
+    }
+};
+PermutedGroup permute_group(std::uint64_t pixel, std::uint64_t pixels, std::uint64_t key) {
     const std::uint64_t groups = pixels / group_pixels, group = pixel / group_pixels;
-    const std::uint64_t turn = mix64(key + (group + 1) * golden);
-    const std::uint64_t first = group_pixels * groups, rest = pixels - first;
-    if (group == groups) return first + (pixel - first + turn % rest) % rest;
-    const std::uint64_t to = (permute_index(group, groups, key) + mix64(key) % groups) % groups;
-    return group_pixels * to + (pixel + turn) % group_pixels;
+    PermutedGroup p;
+    p.first = p.to = group * group_pixels;
+    p.size = static_cast<std::uint32_t>(std::min<std::uint64_t>(group_pixels, pixels - p.first));
+    p.turn = static_cast<std::uint32_t>(mix64(key + (group + 1) * golden) % p.size);
+    if (group < groups)
+        p.to = group_pixels * ((permute_index(group, groups, key) + mix64(key) % groups) % groups);
+    return p;
 }
 
 // The strategy that the previous vertex's vcm stands for. On the camera side vertex i
@@ -92,20 +103,37 @@ SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pas
 }
 
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass) {
+    return paired_subpaths(e, x, y, 1, pass)[0];
+}
+
+std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, int x, int y, int count,
+                                                        std::uint64_t pass) {
     // In the order of the pixels, neighbours and successive passes would meet subpaths from the
     // same strata; a permutation of its own for every pass leaves no pattern.
     e.at(Work::sampling);
     const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     const auto key = [&](std::uint64_t p) { return hash_combine(e.seed, 0x70616972 + p); };
-    if (e.light_subpaths >= pixels) return permute_groups(pixel, pixels, key(pass));
+    std::array<std::uint64_t, group_pixels> numbers{};
+    if (e.light_subpaths >= pixels) {
+        PermutedGroup group = permute_group(pixel, pixels, key(pass));
+        for (int i = 0; i < count; ++i) {
+            if (i > 0 && (pixel + i) % group_pixels == 0)
+                group = permute_group(pixel + i, pixels, key(pass));
+            numbers[i] = group(pixel + i);
+        }
+        return numbers;
+    }
     // Fewer subpaths than pixels go round among all of them before the next permutation, in even
     // and in odd passes apart: the halves of the film stay independent. The permutation turned by
     // chance gives every pixel exactly the same chance.
     const std::uint64_t turns = pixels / e.light_subpaths;
     const std::uint64_t round = (pass >> 1) / turns, turn = (pass >> 1) % turns;
     const std::uint64_t k = key(2 * round + (pass & 1));
-    return (permute_index(pixel, pixels, k) + turn * e.light_subpaths + mix64(k) % pixels) % pixels;
+    const std::uint64_t shift = turn * e.light_subpaths + mix64(k) % pixels;
+    for (int i = 0; i < count; ++i)
+        numbers[i] = (permute_index(pixel + i, pixels, k) + shift) % pixels;
+    return numbers;
 }
 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {

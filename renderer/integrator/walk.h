@@ -163,11 +163,15 @@ inline constexpr int group_pixels = 8;
 // e.light_subpaths, the sample has none; where adding the crop's area (again) is, it has more.
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);
 
-// Calls `use` with the number of every light subpath of a sample.
+// The same of `count` pixels of a row, group_pixels at most, of which the first is given.
+std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, int x, int y, int count,
+                                                        std::uint64_t pass);
+
+// Calls `use` with the number of every light subpath of a sample, of which `paired` is the first.
 template <class Use>
-void for_each_subpath(const Estimator& e, int x, int y, std::uint64_t pass, const Use& use) {
+void for_each_subpath(const Estimator& e, std::uint64_t paired, const Use& use) {
     const auto step = static_cast<std::uint64_t>(e.crop.area());
-    for (std::uint64_t i = paired_subpath(e, x, y, pass); i < e.light_subpaths; i += step) use(i);
+    for (std::uint64_t i = paired; i < e.light_subpaths; i += step) use(i);
 }
 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass);

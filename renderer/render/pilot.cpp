@@ -201,6 +201,29 @@ std::optional<Run> run_pilot(const Estimator& e, const Candidates& candidates, i
     return run;
 }
 
+// Of a plan by a run that it belongs to, against the full plan by its own run.
+PlanForecast forecast_of(const Candidates& candidates, int i, const Run& run, const Plan& full,
+                         const Run& of_full) {
+    PlanForecast f{candidates.plans[size_t(i)]};
+    f.cost = cost_of(f.plan, run.sums) / cost_of(full, of_full.sums);
+    // A black image has no error to compare: the cheapest plan then.
+    f.error = of_full.errors.back() > 0 ? run.errors[size_t(i)] / of_full.errors.back() : 1;
+    if (!(f.error > 0)) f.error = std::numeric_limits<double>::infinity();
+    return f;
+}
+
+// Whether no plan without connections comes near the others, whatever roulette it has: its own
+// changes error and cost by less than a factor of two each.
+bool connections_win(const Candidates& candidates, const Run& run, const Plan& full) {
+    double with = std::numeric_limits<double>::infinity(), without = with;
+    for (int i = 0; i < candidates.count; ++i) {
+        const PlanForecast f = forecast_of(candidates, i, run, full, run);
+        double& best = f.plan.families.connection ? with : without;
+        best = std::min(best, f.time());
+    }
+    return without > 4 * with;
+}
+
 }  // namespace
 
 const PlanForecast& PlanDecision::chosen() const {
@@ -226,19 +249,17 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
     Estimator unconnected = e;
     unconnected.roulette_start = roulette_start(Families{true, true, true, false});
     const std::optional<Run> a = run_pilot(e, candidates, threads, control);
+    if (!a) return {};
     // Where the full plan does not connect either, it would be the same run again.
-    const std::optional<Run> b = unconnected.roulette_start == e.roulette_start
+    const bool same = unconnected.roulette_start == e.roulette_start;
+    const std::optional<Run> b = same || connections_win(candidates, *a, full)
                                      ? a
                                      : run_pilot(unconnected, candidates, threads, control);
-    if (!a || !b) return {};
+    if (!b) return {};
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0; i < candidates.count; ++i) {
-        PlanForecast f{candidates.plans[i]};
-        const Run& run = f.plan.families.connection ? *a : *b;
-        f.cost = cost_of(f.plan, run.sums) / cost_of(full, a->sums);
-        // A black image has no error to compare: the cheapest plan then.
-        f.error = a->errors.back() > 0 ? run.errors[i] / a->errors.back() : 1;
-        if (!(f.error > 0)) f.error = std::numeric_limits<double>::infinity();
+        const bool connects = candidates.plans[size_t(i)].families.connection;
+        const PlanForecast f = forecast_of(candidates, i, connects ? *a : *b, full, *a);
         if (f.time() < margin * best) {
             best = f.time();
             decision.plan = f.plan;
@@ -265,8 +286,7 @@ std::string describe(const Plan& plan) {
 
 std::string describe(const PlanDecision& decision) {
     const PlanForecast& f = decision.chosen();
-    if (decision.forecasts.size() < 2)
-        return describe(f.plan) + ": there is no other to choose";
+    if (decision.forecasts.size() < 2) return describe(f.plan) + ": there is no other to choose";
     if (f.cost == 1 && f.error == 1)
         return describe(f.plan) + ": plain bdpt, nothing faster is expected";
     const double percent = 100 * f.time();

@@ -124,8 +124,11 @@ PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, in
         // A small crop has the same pixel in many strata: passes of their own for all of them.
         const std::uint64_t first = pilot_passes * stratum + half;
         light.begin(group_pixels);
-        for (int i = 0; i < group_pixels; ++i)
-            trace_light_subpaths(e, x, y, first + 2 * i, i, light, record, result.light);
+        for (int i = 0; i < group_pixels && e.families.needs_light_subpaths(); ++i) {
+            const std::uint64_t pass = first + 2 * i;
+            trace_light_subpaths(e, paired_subpath(e, x, y, pass), pass, i, light, record,
+                                 result.light);
+        }
         for (int i = 0; i < group_pixels; ++i) {
             record.begin(x, y);
             trace_camera_subpath(e, x, y, first + 2 * i, i, light, record, result.camera);

@@ -57,7 +57,7 @@ class Replayer {
         if (watch_.own)
             estimate_alone(e_, x, y, pass, light_, watch_, rays_);
         else
-            for_each_subpath(e_, x, y, pass, [&](std::uint64_t subpath) {
+            for_each_subpath(e_, paired_subpath(e_, x, y, pass), [&](std::uint64_t subpath) {
                 trace_light_subpath(e_, subpath, pass, light_.spare, watch_, rays_);
             });
         keep_brighter(best, {x, y, pass, watch_.sum, luminance(watch_.sum)});

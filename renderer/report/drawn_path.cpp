@@ -281,7 +281,7 @@ DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, con
     for (int place = 0; place < g.size() && e.families.needs_light_subpaths(); ++place) {
         const bool own = place == sample.place;
         const std::uint64_t paired = paired_subpath(e, g.x0 + place, y, pass);
-        for_each_subpath(e, g.x0 + place, y, pass, [&](std::uint64_t subpath) {
+        for_each_subpath(e, paired, [&](std::uint64_t subpath) {
             if (!own && subpath != paired) return;
             auto light = record_light(e, subpath, pass, own ? found : Visit{});
             if (subpath == paired) sample.lights[static_cast<size_t>(place)] = std::move(light);

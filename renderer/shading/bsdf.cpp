@@ -84,8 +84,8 @@ LobeChoice scaled(const LobeChoice& c, float by) {
 }
 
 // sum_lobes() where there is Lambert's lobe alone, with the same bits.
-PairSums sum_diffuse(const Bsdf& b, const vec3& o, const vec3& i, bool reflects) {
-    if (!reflects || !b.has_diffuse()) return {};
+PairSums sum_diffuse(const Bsdf& b, const vec3& o, const vec3& i) {
+    if (!b.has_diffuse()) return {};
     const float mu_o = abs_dot(b.frame.n, o), mu_i = abs_dot(b.frame.n, i);
     return {b.diffuse * (inv_pi * mu_i), cosine_hemisphere_pdf_w(mu_i),
             cosine_hemisphere_pdf_w(mu_o)};
@@ -171,8 +171,9 @@ BsdfEval eval_bsdf(const Bsdf& b, const vec3& from, const vec3& to, Transport tr
     const float go = glm::dot(o, b.ng), gi = glm::dot(i, b.ng);
     if (go == 0 || gi == 0) return {};
     const bool reflects = go * gi > 0;
-    const lobes::PairSums s = b.only_diffuse ? lobes::sum_diffuse(b, o, i, reflects)
-                                             : lobes::sum_lobes(b, o, i, go > 0, reflects);
+    if (!reflects && !b.has_glass()) return {};
+    const lobes::PairSums s =
+        b.only_diffuse ? lobes::sum_diffuse(b, o, i) : lobes::sum_lobes(b, o, i, go > 0, reflects);
     const vec3 f = s.value / std::abs(gi);
     return radiance ? BsdfEval{f, s.pdf_light, s.pdf_camera}
                     : BsdfEval{f, s.pdf_camera, s.pdf_light};

@@ -62,6 +62,12 @@ struct BsdfEval {
 
 BsdfEval eval_bsdf(const Bsdf& bsdf, const vec3& from, const vec3& to, Transport transport);
 
+// False where eval_bsdf() is zero for the sides of the surface alone: only glass lets light
+// through.
+inline bool may_scatter(const Bsdf& b, const vec3& from, const vec3& to) {
+    return b.has_glass() || glm::dot(from, b.ng) * glm::dot(to, b.ng) > 0;
+}
+
 struct BsdfSample {
     vec3 to{0, 0, 1};
     vec3 weight{0};  // f |to . ng| / pdf_fwd_w; for a delta lobe the ratio of the Dirac factors'
