@@ -127,8 +127,11 @@ std::vector<std::string> not_covered(const SceneFeatures& f, const Families& fam
     std::vector<PathKind> shortest;
     std::vector<std::string> result;
     for (const PathKind& k : kinds_not_covered(f, families, direct_lamps)) {
+        // A shorter kind tells of the longer ones that contain it. A lamp seen directly is its own
+        // story: nothing longer is missed for its reason.
         const auto tells = [&](const PathKind& q) {
-            return q.hittable == k.hittable && k.surfaces.find(q.surfaces) != Pattern::npos;
+            return q.hittable == k.hittable && !q.surfaces.empty() &&
+                   k.surfaces.find(q.surfaces) != Pattern::npos;
         };
         if (std::ranges::any_of(shortest, tells)) continue;
         shortest.push_back(k);

@@ -14,7 +14,7 @@ namespace midway {
 
 // Sums of one strategy over all samples, of luminance; exact, so independent of the threads.
 struct StrategySums {
-    std::uint64_t samples = 0;  // contributions, whatever their weights
+    std::uint64_t samples = 0;  // contributions that carry something
     Int128 energy = 0;          // weighted
     Int128 second_moment = 0;   // of the weighted contributions, in units of the film's squared
 };

@@ -10,9 +10,10 @@ namespace {
 constexpr double same_pdfs_limit = 1e-9;
 constexpr double own_median_limit = 1e-6, own_tail_limit = 1e-3;
 constexpr double bias_limit = 1e-5, other_bias_limit = 1e-3;  // exponent 2, and others
-// A bias is a mean over the paths drawn: it has to be told from its bar. At most 2.4e-4 false
-// alarms for each exponent where many paths carry it; fewer where one path carries most of it.
-constexpr double bias_deviates = 3.5;
+// A bias is a mean over the paths drawn: it has to be told from its bar, with at most 1.1e-5 false
+// alarms for each exponent where many paths carry it, and fewer where few do. Few paths that carry
+// much more than the bar are a fault all the same.
+constexpr double bias_deviates = 4.4, most_over_bias_limit = 100;
 constexpr double leak_limit = 1e-7, chance_leaks = 3;
 constexpr double headroom_limit = 20;  // decades
 
@@ -59,7 +60,9 @@ AuditCheck same_pdfs(const AuditResult& r, const char* name, Deviation WeightAud
 AuditCheck own_bias(const AuditResult& r, bool power) {
     const double limit = power ? bias_limit : other_bias_limit;
     const auto fails = [&](const WeightAudit& w) {
-        return !(std::abs(w.bias) - bias_deviates * w.bias_error <= limit);
+        const double bias = std::abs(w.bias);
+        return !(bias - bias_deviates * w.bias_error <= limit &&
+                 bias <= most_over_bias_limit * limit);
     };
     // The largest of those that fail, or of all; what is not a number fails and is never exceeded.
     const WeightAudit* worst = nullptr;

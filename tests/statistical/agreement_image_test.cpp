@@ -83,21 +83,28 @@ TEST(AgreementOfPixels, HoldsWhereLampsAreSeenDirectly) {
 }
 
 // With all else equal, the bare estimate of a strategy that alone makes every path of a length has
-// the mean of that length: next event, light tracing and emitter hits of two and three edges over
-// rough surfaces, and the connection (2, 2) of three.
+// the mean of that length: of two and three edges over rough surfaces under a lamp and a sky all of
+// them, under a point lamp those that need not hit it, through smooth glass emitter hits alone.
 TEST(AgreementOfStrategies, EachBareLayerHasTheMeanOfItsPathLength) {
-    const AgreementScene scene = make_agreement_scene("area");
-    for (const int edges : {2, 3})
-        for (int s = 1; s <= edges + 1; ++s) {
-            const Strategy k{s, edges + 1 - s};
-            RenderSettings a = small(scene, Technique::bdpt), b = a;
-            a.only = {k};
-            a.unweighted = true;
-            for (int i = 1; i <= edges + 1; ++i) b.only.push_back({i, edges + 1 - i});
-            Effort effort = single_pixels();
-            effort.block = 2;
-            EXPECT_EQ(disagreement(scene, a, b, effort, 7), "") << describe(k);
-        }
+    struct Case {
+        const char* scene;
+        int least_t, most_t;
+    };
+    for (const Case& c :
+         {Case{"area", 0, 3}, {"sky_map", 0, 3}, {"point", 1, 3}, {"smooth_glass", 0, 0}}) {
+        const AgreementScene scene = make_agreement_scene(c.scene);
+        for (const int edges : {2, 3})
+            for (int t = c.least_t; t <= std::min(edges, c.most_t); ++t) {
+                const Strategy k{edges + 1 - t, t};
+                RenderSettings a = small(scene, Technique::bdpt), b = a;
+                a.only = {k};
+                a.unweighted = true;
+                for (int i = 1; i <= edges + 1; ++i) b.only.push_back({i, edges + 1 - i});
+                Effort effort = single_pixels();
+                effort.block = 2;
+                EXPECT_EQ(disagreement(scene, a, b, effort, 21), "") << c.scene << describe(k);
+            }
+    }
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // Every scene of assets/ under the numerical audit: in the full tier over 1e7 paths, each weighed
 // with exponents up to 32, and 5e7 rays. What is measured is rounding; only the bias is a mean over
-// the paths drawn. The quick tier judges it by its standard error (false alarms 2.4e-4 for each
-// scene and exponent at most; held with 20 other seeds); in the full tier the figure itself keeps
-// to the bar.
+// the paths drawn. The quick tier judges it by its standard error (false alarms 1e-4 for a scene at
+// most; held with 20 other seeds); in the full tier the figure itself keeps to the bar.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -63,7 +63,9 @@ std::vector<AssetPlan> asset_plans() {
          sky,
          {row("ENLC", some, tenth, 8192), row("EN", some, tenth, 16384),
           row("L", power, tenth, 131072), row("N", power, tenth, 8192),
-          row("ENL", some, tenth, 8192), row("ENC", some, tenth, 8192)}},
+          row("ENL", some, tenth, 8192), row("ENC", some, tenth, 8192),
+          row("NL", some, tenth, 8192), row("NC", some, tenth, 8192),
+          row("NLC", some, tenth, 8192), row("LC", some, one, 2048)}},
     };
 }
 

@@ -121,6 +121,8 @@ TEST(Audit, EveryCheckFailsWhereItsFigureLeavesTheBar) {
     expect_fails(with_bias(6, 2e-3, 2e-4), "other exponents");
     expect_fails(with_bias(5, NAN, 0), "other exponents");
     expect_fails(with_bias(5, 0, NAN), "other exponents");
+    // Too large to be the doing of few paths.
+    expect_fails(with_bias(4, 2e-3, 1e-3), "pdfs imply, exponent 2");
     // Not told from the bar.
     for (const AuditCheck& c : judge_audit(with_bias(4, -2e-5, 4e-6)))
         EXPECT_TRUE(c.passed) << c.name;

@@ -38,6 +38,18 @@ TEST(Coverage, TellsWhatATechniqueCannotMake) {
               missing("caustic", Technique::light));
 }
 
+// Without emitter hits the lamp is not seen, and neither is what only they find behind glass.
+TEST(Coverage, TellsWhatFamiliesCannotMake) {
+    const AgreementScene s = make_agreement_scene("smooth_glass");
+    const SceneFeatures f = scene_features(*s.scene);
+    const std::string lamp = "lamp or sky > camera";
+    const std::string seen_in_smooth = "lamp or sky > smooth surface > camera";
+    EXPECT_EQ(Lines{}, not_covered(f, {true, false, false, false}, false));
+    for (const Families& families :
+         {Families{false, true, false, false}, {false, true, true, true}})
+        EXPECT_EQ((Lines{lamp, seen_in_smooth}), not_covered(f, families, false));
+}
+
 // One line each, but not alike: all that bdpt misses path misses too, and more.
 TEST(Coverage, CountsEveryKindOfPath) {
     const SceneFeatures f = scene_features(*make_agreement_scene("caustic").scene);

@@ -65,10 +65,10 @@ TEST(ExactSums, WeightedLayersSumToTheImageExactly) {
 // A bare layer is the image of its strategy alone without weights, as integers.
 TEST(ExactSums, BareLayersAreTheImagesOfStrategiesAlone) {
     size_t lit = 0;
-    for (const char* name : {"five_lights", "smooth_glass", "sky_map"}) {
+    for (const char* name : {"five_lights", "smooth_glass", "sky_map", "narrow_metal"}) {
         const AgreementScene scene = make_agreement_scene(name);
         RenderSettings s = small(scene, Technique::bdpt);
-        s.exponents = {8};
+        s.exponents = {32};
         RendererOptions options;
         options.layer_edges = 4;
         ProgressiveRenderer all(scene.scene, scene.camera, s, options);
@@ -81,7 +81,7 @@ TEST(ExactSums, BareLayersAreTheImagesOfStrategiesAlone) {
             ProgressiveRenderer one(scene.scene, scene.camera, only, {});
             one.render_passes(16);
             EXPECT_TRUE(one.film().words() == layer.films->bare.words())
-                << name << ": " << layer.strategy.s << ", " << layer.strategy.t;
+                << scene.name << ": " << layer.strategy.s << ", " << layer.strategy.t;
             lit += mean_luminance(one.image()) > 0;
         }
     }
