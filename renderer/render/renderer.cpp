@@ -68,7 +68,8 @@ ProgressiveRenderer::ProgressiveRenderer(std::shared_ptr<const Scene> scene,
     : scene_(std::move(scene)),
       estimator_(make_estimator(*scene_, camera, settings)),
       first_pass_(options.first_pass),
-      background_(options.background) {
+      background_(options.background),
+      general_(options.general) {
     const int processors = std::max(1u, std::thread::hardware_concurrency());
     threads_ = options.threads > 0 ? options.threads : processors;
     const int unit = film_unit_exponent(scene_->total_power);
@@ -134,9 +135,8 @@ bool ProgressiveRenderer::render_passes(std::uint64_t count,
     Batch batch{.tiles = make_tiles(estimator_.crop, count, threads_), .control = control};
     batch.items = count * batch.tiles.count();
     const bool observed = targets_.layers || targets_.statistics || targets_.cells;
-    const Facts facts = facts_of(estimator_);
     const auto run = [&](WorkerSums& s) {
-        return with_facts(facts, [&]<Facts F> {
+        return with_facts(facts(), [&]<Facts F> {
             return observed ? work<F, true>(batch, s) : work<F, false>(batch, s);
         });
     };

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "integrator/facts.h"
 #include "render/film_record.h"
 #include "render/render_control.h"
 #include "render/settings.h"
@@ -18,6 +19,7 @@ struct RendererOptions {
     bool statistics = false;             // per strategy, unless observe() decides
     std::uint64_t first_pass = 0;        // of a shard: the samples before belong to others
     bool background = false;             // workers leave the processor to others who want it
+    bool general = false;                // by the code that holds for every pass (facts.h)
     std::atomic<Work>* watch = nullptr;  // what the worker is at; for one thread
 };
 
@@ -64,6 +66,8 @@ class ProgressiveRenderer {
     std::uint64_t first_pass() const { return first_pass_; }
     int threads() const { return threads_; }
     const Estimator& estimator() const { return estimator_; }
+    // What the code of its passes makes use of.
+    Facts facts() const { return general_ ? no_facts : facts_of(estimator_); }
     const Film& film(int exponent = 0) const { return films_[exponent]; }
     Image image(int exponent = 0) const;
     Image variance(int exponent = 0) const;
@@ -95,6 +99,7 @@ class ProgressiveRenderer {
     FilmTargets targets_;
     WorkerSums totals_;
     bool background_ = false;
+    bool general_ = false;
     double cpu_seconds_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "integrator/facts.h"
 #include "math/student.h"
 #include "render/leave_outs.h"
 #include "render/pilot.h"
@@ -26,6 +27,7 @@ std::optional<NeedlessWork> work_of(const std::string& what) {
     if (what == "texture coordinates") return NeedlessWork{.attributes = true};
     if (what == "transparency") return NeedlessWork{.coverage = true};
     if (what == "lights") return NeedlessWork{.lights = true};
+    if (what == "black lights") return NeedlessWork{.black_lights = true};
     if (what == "lights at infinity") return NeedlessWork{.sky = true};
     if (what == "transmission") return NeedlessWork{.transmission = true};
     return {};
@@ -97,6 +99,18 @@ void add_plan(const PreparedScene& p, const Case& usual, std::vector<Case>& case
     add("all that auto leaves out", why, Plan{full, std::max(chosen.light_quarters, 4)});
 }
 
+// What the code of a pass knows beforehand.
+void add_code(const PreparedScene& p, const Case& usual, std::vector<Case>& cases) {
+    const Facts facts = facts_of(make_estimator(*p.scene, p.camera, usual.settings));
+    if (facts == no_facts) return;
+    Case c = usual;
+    c.left_out = {"code for other passes",
+                  facts.path_tracer ? "the only exponent is 2, and there are no light subpaths"
+                                    : "the only exponent is 2"};
+    c.options.general = true;
+    cases.push_back(std::move(c));
+}
+
 std::vector<Case> find_cases(const PreparedScene& p, const RenderSettings& settings, int threads) {
     Case usual;
     usual.settings = settings;
@@ -104,6 +118,7 @@ std::vector<Case> find_cases(const PreparedScene& p, const RenderSettings& setti
     std::vector<Case> cases;
     add_plan(p, usual, cases);
     add_scene(p, usual, cases);
+    add_code(p, usual, cases);
     Case images = usual;
     images.left_out = {"strategy images", "nobody asked for them"};
     images.options.layer_edges = 8;

@@ -184,7 +184,8 @@ void make_light_tree(Scene& s, std::vector<double> weights, const Scene* previou
     s.light_tree.build(bounds, weights);
 }
 
-void make_light_tables(Scene& s, const Scene* previous) {
+// `black_too`: black lights are picked as if each had the mean power.
+void make_light_tables(Scene& s, const Scene* previous, bool black_too) {
     std::vector<double> power, next_event;
     power.reserve(s.lights.size());
     next_event.reserve(s.lights.size());
@@ -202,6 +203,11 @@ void make_light_tables(Scene& s, const Scene* previous) {
     if (!std::isfinite(s.total_power))
         throw std::runtime_error(
             "the lights' power is not finite (emission or intensity); use smaller numbers");
+    if (black_too && shining > 0) {
+        const double mean_power = picked / double(shining);
+        for (size_t i = 0; i < power.size(); ++i)
+            if (!(s.lights[i].power > 0)) power[i] = mean_power, picked += mean_power, ++shining;
+    }
     // From the short list: the lights themselves are many times as large.
     for (const double p : power)
         next_event.push_back(p > 0 ? (1 - even_share) * p / picked + even_share / double(shining)
@@ -250,16 +256,16 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
         black.strength = 0;
         add_sky(s, black, nullptr, true);
     }
-    if (options.needless.lights) {
-        make_light_tables(s, nullptr);
-    } else if (previous && same_places(*previous, s)) {
+    const bool black_too = options.needless.black_lights;
+    const bool same = previous && same_places(*previous, s);
+    if (same && !options.needless.lights) {
         for (size_t i = 0; i < s.lights.size(); ++i)
             s.lights[i].reaches = previous->lights[i].reaches;
-        make_light_tables(s, previous);
-    } else {
+    } else if (!options.needless.lights) {
         find_reach(s);
-        make_light_tables(s, nullptr);
     }
+    const bool same_tables = same && !options.needless.lights && !black_too;
+    make_light_tables(s, same_tables ? previous : nullptr, black_too);
     if (s.emission_pick.total > 0) s.same_lamp = same_lamp_probability(s);
 }
 

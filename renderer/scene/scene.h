@@ -59,7 +59,8 @@ struct NeedlessWork {
     bool normal_maps = false;  // the same of flat ones
     bool coverage = false;     // rays ask opaque triangles how opaque they are
     bool lights = false;       // lights that reach nothing are picked too
-    bool sky = false;          // rays that leave the scene look up a black sky
+    bool black_lights = false;  // black ones are picked as often as if each had the mean power
+    bool sky = false;           // rays that leave the scene look up a black sky
     bool transmission = false;  // opaque materials let light through by a black texture
 };
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import harness
 from harness import CliTest
+from support import browser
 
 COLUMNS = ["technique", "exponent", "seed", "seconds", "cpu_seconds", "spp", "mse", "rmse", "relmse",
            "relmse_trimmed", "smape", "bias", "bias_z"]
@@ -16,6 +17,12 @@ def rows_of(path):
     with open(path, newline="", encoding="utf-8") as file:
         reader = csv.DictReader(file)
         return reader.fieldnames, list(reader)
+
+
+def same_curve(points, others):
+    """Within the digits that a page keeps."""
+    return len(points) == len(others) and all(
+        abs(a - b) <= 1e-4 * abs(a) for p, q in zip(points, others) for a, b in zip(p, q))
 
 
 class Compare(CliTest):
@@ -57,6 +64,22 @@ class Compare(CliTest):
         self.assertGreater(told["techniques"][1]["efficiency"]["value"], 0)
         html = (self.out / "report.html").read_text(encoding="utf-8")
         self.assertIn("bdpt:1", html)
+
+    def test_what_was_measured_is_shown_by_a_browser(self):
+        if not browser.installed():
+            self.skipTest("no Chromium to open the report in (chromium)")
+        self.short()
+        page = self.out / "report.html"
+        curves = ("Chart.getChart(document.querySelector('.plot canvas')).data.datasets.filter("
+                  "d => d.label === '{}').map(d => d.data.map(p => [p.x, p.y]))")
+        with browser.Browser() as chromium:
+            chromium.open(page)
+            for t in self.summary()["techniques"]:
+                drawn = chromium.evaluate(curves.format(t["label"]))
+                measured = [(p["seconds"], p["relmse"]["value"]) for p in t["band"]]
+                self.assertTrue(any(same_curve(measured, curve) for curve in drawn), t["label"])
+            self.assertEqual([], chromium.messages, "the console stays empty")
+            self.assertEqual([page.resolve().as_uri()], chromium.requests)
 
     def test_goes_on_where_it_was(self):
         self.short()

@@ -128,6 +128,19 @@ TEST(Facts, AreFound) {
     }
 }
 
+TEST(Facts, NeedNotBeMadeUseOf) {
+    const AgreementScene a = make_agreement_scene("five_lights");
+    for (const Setting& k : all_settings()) {
+        SCOPED_TRACE(k.name);
+        ProgressiveRenderer usual(a.scene, a.camera, k.settings, {.threads = 1});
+        ProgressiveRenderer general(a.scene, a.camera, k.settings, {.threads = 1, .general = true});
+        EXPECT_TRUE(usual.facts() == k.facts);
+        EXPECT_TRUE(general.facts() == no_facts);
+        usual.render_passes(2), general.render_passes(2);
+        EXPECT_TRUE(usual.film().words() == general.film().words());
+    }
+}
+
 // A pilot weighs paths without light subpaths as if there were some.
 TEST(Facts, OfTheWeightsCountToo) {
     const AgreementScene a = make_agreement_scene("area");

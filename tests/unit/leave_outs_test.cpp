@@ -4,35 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
-#include "render/pilot.h"
-#include "report/cost.h"
-#include "support/scenes.h"
+#include "support/rooms.h"
 
 namespace midway::test {
 namespace {
-
-CameraDescription eye() { return camera_at({0, 1, 4}, {0, 0.5f, 0}, 0.8); }
-
-// A floor, a ball, a lamp above; every kind of lobe, nothing textured.
-SceneDescription plain_room() {
-    SceneDescription s;
-    add(s, make_quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 2), lambert(vec3(0.6f)));
-    add(s, make_quad({-0.5f, 2, -0.5f}, {1, 0, 0}, {0, 0, 1}), lamp(vec3(4)));
-    add(s, make_icosphere({0.7f, 0.5f, 0}, 0.5f, 2, false, true), glass(0.1f));
-    add(s, make_icosphere({-0.7f, 0.5f, 0}, 0.5f, 2, false, true), plastic(0.2f));
-    return s;
-}
-
-// Only mirrors and clear glass, and a lamp that is seen in the floor: nothing to connect.
-SceneDescription mirror_room() {
-    SceneDescription s;
-    add(s, make_quad({-2, 0, 3.5f}, {4, 0, 0}, {0, 0, -6}, 2), metal(0, vec3(0.7f)));
-    add(s, make_quad({-0.5f, 2, -2.5f}, {1, 0, 0}, {0, 0, 1}), lamp(vec3(4)));
-    add(s, make_icosphere({0.7f, 0.5f, 0}, 0.5f, 2, false, true), glass(0));
-    return s;
-}
 
 SceneDescription bulb_room() {
     SceneDescription s = plain_room();
@@ -249,13 +224,6 @@ TEST(Reach, SpotsThatPassByShineOnNothing) {
     EXPECT_EQ(1u, unreached(d));
 }
 
-// A floor, a lamp over it, and another that the camera sees and nothing else.
-SceneDescription room_with_a_sign() {
-    SceneDescription d = plain_room();
-    add(d, make_quad({-3, -1, 2}, {6, 0, 0}, {0, 0.4f, 0}), lamp(vec3(9)));
-    return d;
-}
-
 TEST(Reach, LightsOutOfReachAreSeenAndNeverPicked) {
     const auto scene = build(room_with_a_sign());
     ASSERT_EQ(2u, scene->unreached_lights);
@@ -297,81 +265,30 @@ TEST(Reach, PickingThemAllTheSameKeepsTheMean) {
     }
 }
 
-TEST(Cost, MeasuresEveryThingThatCanBeTurnedOn) {
-    PreparedScene p;
-    p.description = room_with_a_sign();
-    p.camera = eye();
-    p.scene = build(p.description);
-    RenderSettings s = settings(Technique::automatic, 8, 4);
-    s.plan = Plan{{true, true, true, false}, 2};
-    const auto rows = measure_cost(p, s, {.threads = 1, .rounds = 2, .seconds = 0});
-    std::map<std::string, LeaveOutCost> by_name;
-    for (const LeaveOutCost& row : rows) by_name[row.what] = row;
-    for (const char* what : {"textures", "texture coordinates", "transparency",
-                             "lights at infinity", "strategy images"}) {
-        ASSERT_TRUE(by_name.contains(what)) << what;
-        EXPECT_TRUE(by_name[what].same_bits) << what;
-        EXPECT_EQ(1, by_name[what].mean_ratio) << what;
+// The same chance; the lamp alone is picked by default.
+TEST(LeaveOuts, BlackLightsAreNeverPickedAndPickingThemKeepsTheMean) {
+    SceneDescription d = plain_room();
+    d.lights = {point_light({0, 1.7f, 1}, 0), point_light({0.5f, 1.5f, 1}, 0)};
+    const auto usual = build(d);
+    EXPECT_EQ("2 of 4 are black", why(*usual, "black lights"));
+    for (const Scene* previous : {static_cast<const Scene*>(nullptr), usual.get()}) {
+        const auto all = build_with(d, {.black_lights = true}, previous);
+        ASSERT_EQ(usual->lights.size(), all->lights.size());
+        for (size_t i = 0; i < all->lights.size(); ++i) {
+            const auto light = static_cast<int>(i);
+            const bool shines = all->lights[i].power > 0;
+            EXPECT_EQ(shines, usual->emission_pick.probability(light) > 0);
+            EXPECT_EQ(shines, usual->light_tree.probability(light, vec3(0)) > 0);
+            EXPECT_FLOAT_EQ(0.25f, static_cast<float>(all->emission_pick.probability(light)));
+            EXPECT_GT(all->light_tree.probability(light, vec3(0)), 0);
+        }
+        for (const Technique t : {Technique::path, Technique::bdpt}) {
+            const RenderSettings s = settings(t, 8, 5);
+            EXPECT_LT(std::abs(z_score(batch_mean(usual, eye(), s, 8, 16),
+                                       batch_mean(all, eye(), s, 8, 16))),
+                      5);
+        }
     }
-    for (const char* what :
-         {"connections", "light subpaths", "all that auto leaves out", "lights"}) {
-        ASSERT_TRUE(by_name.contains(what)) << what;
-        EXPECT_FALSE(by_name[what].same_bits) << what;
-        EXPECT_GT(by_name[what].mean_ratio, 0.3) << what;
-        EXPECT_LT(by_name[what].mean_ratio, 3) << what;
-    }
-    for (const char* what : {"normal maps", "transparency"}) {
-        ASSERT_TRUE(by_name.contains(what)) << what;
-        EXPECT_NEAR(by_name[what].mean_ratio, 1, 0.05) << what;
-    }
-    EXPECT_FALSE(by_name.contains("light tracing"));
-    EXPECT_EQ(10u, rows.size());
-    for (const LeaveOutCost& row : rows) {
-        EXPECT_GT(row.left_out.median, 0) << row.what;
-        EXPECT_GT(row.done.median, 0) << row.what;
-        EXPECT_LE(row.saving.low, row.saving.median) << row.what;
-        EXPECT_FALSE(row.why.empty()) << row.what;
-    }
-}
-
-TEST(Cost, MeasuresAPlanPieceByPiece) {
-    PreparedScene p;
-    p.description = plain_room();
-    p.camera = eye();
-    p.scene = build(p.description);
-    RenderSettings s = settings(Technique::automatic, 8, 4);
-    s.plan = Plan{{true, true, false, false}, 0};
-    std::vector<std::string> names;
-    for (const LeaveOutCost& row : measure_cost(p, s, {.threads = 1, .rounds = 1, .seconds = 0}))
-        if (row.why.starts_with("the plan of auto is path tracing")) names.push_back(row.what);
-    EXPECT_EQ(
-        (std::vector<std::string>{"connections", "light tracing", "all that auto leaves out"}),
-        names);
-    s.plan = Plan{{}, 1};
-    for (const LeaveOutCost& row : measure_cost(p, s, {.threads = 1, .rounds = 1, .seconds = 0}))
-        EXPECT_EQ(row.why.starts_with("the plan"), row.what == "light subpaths") << row.what;
-    s.plan = Plan{{}, 8};
-    for (const LeaveOutCost& row : measure_cost(p, s, {.threads = 1, .rounds = 1, .seconds = 0}))
-        EXPECT_FALSE(row.why.starts_with("the plan")) << row.what << ": two subpaths are no saving";
-}
-
-TEST(Cost, MeasuresFamiliesThatNothingHereNeeds) {
-    PreparedScene p;
-    p.description = mirror_room();
-    p.camera = eye();
-    p.scene = build(p.description);
-    RenderSettings s = settings(Technique::automatic, 8, 4);
-    choose_plan(*p.scene, p.camera, s, 1);
-    const auto rows = measure_cost(p, s, {.threads = 1, .rounds = 1, .seconds = 0});
-    size_t families = 0;
-    for (const LeaveOutCost& row : rows) {
-        const bool family =
-            row.what == "next-event" || row.what == "light" || row.what == "connect";
-        families += family;
-        EXPECT_TRUE(row.same_bits || row.what == "normal maps" || row.what == "transparency")
-            << row.what;
-    }
-    EXPECT_EQ(3u, families);
 }
 
 }  // namespace

@@ -79,6 +79,9 @@ midway.points = (series, x_axis, y_axis) => {
     return points.sort((a, b) => a.x - b.x);
 };
 
+// Levels that are not so far below the curves that showing them would flatten these.
+midway.near_levels = (axis, lowest) => axis.levels.filter((l) => !axis.logarithmic || l.value > lowest / 300);
+
 // Limits that hold all values (and levels that are not far below), whatever is switched off.
 midway.limits = (values, logarithmic) => {
     const low = Math.min(...values), high = Math.max(...values);
@@ -185,18 +188,37 @@ midway.draw_chart = (figure) => {
         },
     });
 
+    const note_of = (x, y) => {
+        const lowest = Math.min(...spec.series.map((s) => midway.points(s, x, y)).flat().map((p) => p.y));
+        const near = midway.near_levels(y, lowest);
+        const far = y.levels.filter((l) => !near.includes(l))
+            .map((l) => `${l.name}: ${midway.number(l.value)}, far below this plot.`);
+        return [x.note, y.note, ...far].filter((t) => t).join(" ");
+    };
+
+    // What stands below the chart stays where it is, whichever axes are chosen.
+    const keep_room = () => {
+        const shown = note.textContent;
+        note.style.minHeight = "";
+        const heights = spec.x.flatMap((x) => spec.y.map((y) => {
+            note.textContent = note_of(x, y);
+            return note.getBoundingClientRect().height;
+        }));
+        note.textContent = shown;
+        note.style.minHeight = `${Math.max(...heights)}px`;
+    };
+
     const draw = () => {
         const all = spec.series.map((series) => midway.points(series, state.x, state.y)).flat();
         const ys = all.map((p) => p.y), lowest = Math.min(...ys);
-        const near = state.y.levels.filter((l) => !state.y.logarithmic || l.value > lowest / 300);
+        const near = midway.near_levels(state.y, lowest);
         // Few seeds give bands of many decades, which would leave no room for the curves.
         const roof = state.y.logarithmic ? 10 * Math.max(...ys) : Infinity;
         const highs = all.map((p) => p.high).filter((v) => v !== null).map((v) => Math.min(v, roof));
         const y_limits = midway.limits([...ys, ...highs, ...near.map((l) => l.value)], state.y.logarithmic);
         const x_limits = midway.limits(all.map((p) => p.x), state.x.logarithmic);
-        const far = state.y.levels.filter((l) => !near.includes(l))
-            .map((l) => `${l.name}: ${midway.number(l.value)}, far below this plot.`);
-        note.textContent = [state.x.note, state.y.note, ...far].filter((t) => t).join(" ");
+        keep_room();
+        note.textContent = note_of(state.x, state.y);
         const bottom = state.y.logarithmic ? y_limits[0] / 1e3 : -Infinity;
         const data = { datasets: datasets(bottom) };
         const options = {
@@ -231,6 +253,7 @@ midway.draw_chart = (figure) => {
     selector("x", "against");
     if (spec.series.length > 1) figure.querySelector(".legend").append(...spec.series.map(legend_button));
     midway.themed.push(draw);
+    window.addEventListener("resize", keep_room);
 };
 
 // All values behind a chart as a table, made when it is first unfolded.
