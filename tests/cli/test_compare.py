@@ -76,7 +76,9 @@ class Compare(CliTest):
             chromium.open(page)
             for t in self.summary()["techniques"]:
                 drawn = chromium.evaluate(curves.format(t["label"]))
-                measured = [(p["seconds"], p["relmse"]["value"]) for p in t["band"]]
+                # A logarithmic axis has no place for an error that is below the reference's own.
+                measured = [(p["seconds"], p["relmse"]["value"]) for p in t["band"]
+                            if p["relmse"]["value"] > 0]
                 self.assertTrue(any(same_curve(measured, curve) for curve in drawn), t["label"])
             self.assertEqual([], chromium.messages, "the console stays empty")
             self.assertEqual([page.resolve().as_uri()], chromium.requests)
