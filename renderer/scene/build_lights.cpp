@@ -257,15 +257,14 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
         add_sky(s, black, nullptr, true);
     }
     const bool black_too = options.needless.black_lights;
-    const bool same = previous && same_places(*previous, s);
-    if (same && !options.needless.lights) {
+    const bool same = previous && !options.needless.lights && same_places(*previous, s);
+    if (same) {
         for (size_t i = 0; i < s.lights.size(); ++i)
             s.lights[i].reaches = previous->lights[i].reaches;
     } else if (!options.needless.lights) {
         find_reach(s);
     }
-    const bool same_tables = same && !options.needless.lights && !black_too;
-    make_light_tables(s, same_tables ? previous : nullptr, black_too);
+    make_light_tables(s, same && !black_too ? previous : nullptr, black_too);
     if (s.emission_pick.total > 0) s.same_lamp = same_lamp_probability(s);
 }
 

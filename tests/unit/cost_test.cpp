@@ -11,12 +11,18 @@
 namespace midway::test {
 namespace {
 
-TEST(Cost, MeasuresEveryThingThatCanBeTurnedOn) {
+PreparedScene prepare(const SceneDescription& d) {
     PreparedScene p;
-    p.description = room_with_a_sign();
-    p.description.lights = {point_light({0, 1.7f, 1}, 0)};
+    p.description = d;
     p.camera = eye();
-    p.scene = build(p.description);
+    p.scene = build(d);
+    return p;
+}
+
+TEST(Cost, MeasuresEveryThingThatCanBeTurnedOn) {
+    SceneDescription d = room_with_a_sign();
+    d.lights = {point_light({0, 1.7f, 1}, 0)};
+    const PreparedScene p = prepare(d);
     RenderSettings s = settings(Technique::automatic, 8, 4);
     s.plan = Plan{{true, true, true, false}, 2};
     const auto rows = measure_cost(p, s, {.threads = 1, .rounds = 2, .seconds = 0});
@@ -50,10 +56,7 @@ TEST(Cost, MeasuresEveryThingThatCanBeTurnedOn) {
 }
 
 TEST(Cost, MeasuresAPlanPieceByPiece) {
-    PreparedScene p;
-    p.description = plain_room();
-    p.camera = eye();
-    p.scene = build(p.description);
+    const PreparedScene p = prepare(plain_room());
     RenderSettings s = settings(Technique::automatic, 8, 4);
     s.plan = Plan{{true, true, false, false}, 0};
     std::vector<std::string> names;
@@ -71,10 +74,7 @@ TEST(Cost, MeasuresAPlanPieceByPiece) {
 }
 
 TEST(Cost, MeasuresFamiliesThatNothingHereNeeds) {
-    PreparedScene p;
-    p.description = mirror_room();
-    p.camera = eye();
-    p.scene = build(p.description);
+    const PreparedScene p = prepare(mirror_room());
     RenderSettings s = settings(Technique::automatic, 8, 4);
     choose_plan(*p.scene, p.camera, s, 1);
     const auto rows = measure_cost(p, s, {.threads = 1, .rounds = 1, .seconds = 0});

@@ -217,7 +217,6 @@ midway.draw_chart = (figure) => {
         const highs = all.map((p) => p.high).filter((v) => v !== null).map((v) => Math.min(v, roof));
         const y_limits = midway.limits([...ys, ...highs, ...near.map((l) => l.value)], state.y.logarithmic);
         const x_limits = midway.limits(all.map((p) => p.x), state.x.logarithmic);
-        keep_room();
         note.textContent = note_of(state.x, state.y);
         const bottom = state.y.logarithmic ? y_limits[0] / 1e3 : -Infinity;
         const data = { datasets: datasets(bottom) };
@@ -253,6 +252,7 @@ midway.draw_chart = (figure) => {
     selector("x", "against");
     if (spec.series.length > 1) figure.querySelector(".legend").append(...spec.series.map(legend_button));
     midway.themed.push(draw);
+    keep_room();
     window.addEventListener("resize", keep_room);
 };
 
