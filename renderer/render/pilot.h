@@ -37,7 +37,7 @@ struct PlanForecast {
 
 struct PlanDecision {
     Plan plan;
-    std::vector<PlanForecast> forecasts;  // of all that were weighed up, simplest first
+    std::vector<PlanForecast> forecasts;  // of all that were weighed up, simplest kind first
     double seconds = 0;
     double cpu_seconds = 0;  // of the whole process meanwhile; known to choose_plan() alone
     const PlanForecast& chosen() const;

@@ -33,19 +33,25 @@ Densities densities(const Contribution& c) {
             std::max(0.0, sum(all, true) - unconnected)};
 }
 
-// The same with a plan's families and numbers of samples.
-Densities planned(Densities d, const Plan& p) {
-    for (size_t f = 0; f < d.size(); ++f)
-        if (!p.families.has(Family(f))) d[f] = 0;
-    d[size_t(Family::light_tracing)] *= light_share(p);
-    d[size_t(Family::connection)] *= connection_share(p);
-    return d;
+// What a plan has of the full one's samples, by family.
+std::array<ByPlan, 4> sample_shares(const Candidates& c) {
+    std::array<ByPlan, 4> shares{};
+    for (size_t i = 0; i < c.plans.size(); ++i)
+        for (size_t f = 0; f < shares.size(); ++f) {
+            const Plan& p = c.plans[i];
+            const Family family{std::uint8_t(f)};
+            if (!p.families.has(family)) continue;
+            shares[f][i] = family == Family::light_tracing ? light_share(p)
+                           : family == Family::connection  ? connection_share(p)
+                                                           : 1;
+        }
+    return shares;
 }
 
 class PilotRecord {
   public:
     PilotRecord(const Grid& grid, const Candidates& candidates, std::vector<BlockSums>& blocks)
-        : grid_(grid), candidates_(candidates), blocks_(blocks) {}
+        : grid_(grid), shares_(sample_shares(candidates)), blocks_(blocks) {}
 
     void begin(int x, int y) {
         block_ = grid_.block(x, y);
@@ -67,13 +73,17 @@ class PilotRecord {
         if (!(value > 0) || !(weight > 0) || !std::isfinite(value)) return 0;
         const Densities d = densities(c);
         const double energy = weight * value;
-        for (int i = 0; i <= candidates_.count; ++i) {
-            const Densities own = planned(d, candidates_.plans[i]);
-            const double one = 1 / (own[0] + own[1] + own[2] + own[3]);
-            for (size_t f = 0; f < own.size(); ++f) {
-                const int g = group_of(Family(f), c.strategy.edges());
-                b.first[i][g] += energy * own[f] * one;
-                b.second[i][g] += energy * own[f] * one * value * one;
+        ByPlan scale;
+        for (size_t i = 0; i < scale.size(); ++i)
+            scale[i] = 1 / (d[0] * shares_[0][i] + d[1] * shares_[1][i] + d[2] * shares_[2][i] +
+                            d[3] * shares_[3][i]);
+        for (size_t f = 0; f < d.size(); ++f) {
+            if (!(d[f] > 0)) continue;
+            const int g = group_of(Family(f), c.strategy.edges());
+            for (size_t i = 0; i < scale.size(); ++i) {
+                const double found = energy * d[f] * shares_[f][i] * scale[i];
+                b.first[g][i] += found;
+                b.second[g][i] += found * value * scale[i];
             }
         }
         b.image += energy;
@@ -81,14 +91,15 @@ class PilotRecord {
     }
 
     const Grid& grid_;
-    const Candidates& candidates_;
+    const std::array<ByPlan, 4> shares_;
     std::vector<BlockSums>& blocks_;
     int block_ = 0;
     Moments gathered_{};
 };
 
-void add_to(Moments& to, const Moments& from) {
-    for (int g = 0; g < groups; ++g) to[g] += from[g];
+template <size_t n>
+void add_to(std::array<double, n>& to, const std::array<double, n>& from) {
+    for (size_t i = 0; i < n; ++i) to[i] += from[i];
 }
 
 // `halves`: sums over the even and the odd passes.
@@ -182,9 +193,9 @@ PilotSums added(std::vector<PilotSums>& parts) {
         const PilotSums& p = parts[i];
         for (size_t b = 0; b < all.blocks.size(); ++b) {
             all.blocks[b].image += p.blocks[b].image;
-            for (size_t k = 0; k <= most_candidates; ++k) {
-                add_to(all.blocks[b].first[k], p.blocks[b].first[k]);
-                add_to(all.blocks[b].second[k], p.blocks[b].second[k]);
+            for (int g = 0; g < groups; ++g) {
+                add_to(all.blocks[b].first[g], p.blocks[b].first[g]);
+                add_to(all.blocks[b].second[g], p.blocks[b].second[g]);
             }
         }
         all.pixels.insert(all.pixels.end(), p.pixels.begin(), p.pixels.end());

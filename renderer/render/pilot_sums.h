@@ -39,13 +39,15 @@ inline int group_of(Family f, int edges) {
     return int(f) * lengths + std::clamp(edges - 2, 0, lengths - 1);
 }
 using Moments = std::array<double, groups>;
+// One number for each plan: side by side, since all are summed at once.
+using ByPlan = std::array<double, most_candidates + 1>;
 
 // Sums over what the samples find in a block.
 struct BlockSums {
     double image = 0;  // of luminance
     // How a plan's strategies would share it, and their second moments; the last one is the full
     // plan.
-    std::array<Moments, most_candidates + 1> first{}, second{};
+    std::array<ByPlan, groups> first{}, second{};
 };
 
 // Variances per sample of what the full plan's camera samples gather, from the halves of the

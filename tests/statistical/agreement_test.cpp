@@ -60,7 +60,8 @@ Effort effort_for(const Variant& v) {
     Effort e;
     e.passes = by_tier<std::uint64_t>(4, 32);
     e.batches = by_tier(64, 128);
-    e.rounds = by_tier(4, 64);
+    // Light tracing into a camera that sits in rough glass takes the most.
+    e.rounds = by_tier(4, 128);
     e.relative_error = by_tier(0.002, v.relative_error);
     return e;
 }

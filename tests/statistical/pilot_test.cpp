@@ -70,8 +70,9 @@ double measured_error(const AgreementScene& scene, const Plan& plan, SamplerKind
 
 // Relative to the full plan. Over 20 other times sixteen seeds of the renders the quotient of
 // forecast and measured error had a spread (one standard deviation of its logarithm) of at most
-// 0.03 about a mean of at most 0.09; with Sobol numbers, where a path tracer finds what rough metal
-// casts, 0.07 about 0.09 (0.03 about 0.15 with connections). Bounds: five spreads beyond, false
+// 0.03; with Sobol numbers, where a path tracer finds what rough metal casts, 0.07. Its mean is at
+// most 0.12 away from none, 0.17 with Sobol numbers, 0.19 on rough metal: blocks are capped, and a
+// plan with few connections is believed to be better than it is. Bounds: five spreads beyond, false
 // alarm below 1e-4. Found to fail: light tracing or connections not scaled by how many there are,
 // the pilot's strategy counted in plans that lack it, roulette of the wrong kind.
 TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
@@ -82,7 +83,7 @@ TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
             s.plan.reset();
             s.sampler = sampler;
             const bool spiky = name == "rough_metal" && sampler == SamplerKind::sobol;
-            const double bound = spiky ? 0.5 : 0.25;
+            const double bound = spiky ? 0.55 : sampler == SamplerKind::sobol ? 0.32 : 0.27;
             const PlanDecision d = *decide_plan(*scene.scene, scene.camera, s, 1);
             ASSERT_GE(d.forecasts.size(), 9u);
             const double full = measured_error(scene, {{}, 4}, sampler);
