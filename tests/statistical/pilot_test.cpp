@@ -71,10 +71,11 @@ double measured_error(const AgreementScene& scene, const Plan& plan, SamplerKind
 // Relative to the full plan. Over 20 other times sixteen seeds of the renders the quotient of
 // forecast and measured error had a spread (one standard deviation of its logarithm) of at most
 // 0.03; with Sobol numbers, where a path tracer finds what rough metal casts, 0.07. Its mean is at
-// most 0.12 away from none, 0.17 with Sobol numbers, 0.19 on rough metal: blocks are capped, and a
-// plan with few connections is believed to be better than it is. Bounds: five spreads beyond, false
-// alarm below 1e-4. Found to fail: light tracing or connections not scaled by how many there are,
-// the pilot's strategy counted in plans that lack it, roulette of the wrong kind.
+// most 0.12 away from none, 0.15 with Sobol numbers, 0.19 on rough metal: blocks are capped, and a
+// plan with few connections is believed to be better than it is. Bounds: three spreads beyond or
+// more, so that other seeds would raise a false alarm in about one run of a hundred; these are
+// fixed. Found to fail: light tracing or connections not scaled by how many there are, the pilot's
+// strategy counted in plans that lack it, roulette of the wrong kind.
 TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
     for (const std::string name : {"area", "rough_metal", "sky_map"})
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
@@ -83,7 +84,7 @@ TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
             s.plan.reset();
             s.sampler = sampler;
             const bool spiky = name == "rough_metal" && sampler == SamplerKind::sobol;
-            const double bound = spiky ? 0.55 : sampler == SamplerKind::sobol ? 0.32 : 0.27;
+            const double bound = spiky ? 0.5 : 0.25;
             const PlanDecision d = *decide_plan(*scene.scene, scene.camera, s, 1);
             ASSERT_GE(d.forecasts.size(), 9u);
             const double full = measured_error(scene, {{}, 4}, sampler);
