@@ -176,7 +176,7 @@ std::vector<double> relative_errors(const PilotSums& r, const Grid& grid,
     return errors;
 }
 
-// Of a sample of a pixel, in rays.
+// Of all samples, in rays.
 double cost_of(const Plan& p, const PilotSums& n) {
     const Prices price;
     std::array<double, 4> rays{};
@@ -194,7 +194,7 @@ double cost_of(const Plan& p, const PilotSums& n) {
         light += price.light_tracing * rays[size_t(Family::light_tracing)];
     double connections = 0;
     if (p.families.connection) connections = price.connection * rays[size_t(Family::connection)];
-    return (camera + light_share(p) * light + connection_share(p) * connections) / pilot_samples;
+    return camera + light_share(p) * light + connection_share(p) * connections;
 }
 
 // Plans with connections end their walks by roulette earlier than others (make_estimator), which

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/pilot_sums.h"
 #include "support/agreement.h"
 
 namespace midway::test {
@@ -68,14 +69,90 @@ double measured_error(const AgreementScene& scene, const Plan& plan, SamplerKind
     return sum;
 }
 
+// By group of the pilot.
+using GroupMeans = std::array<RunningMean, groups>;
+
+// What strategies contribute to renders with a plan: luminance per pixel and pass, over seeds.
+GroupMeans rendered_means(const AgreementScene& scene, const Plan& plan, int size) {
+    constexpr int passes = 4, seeds = 24;
+    RenderSettings s = planned(scene, plan, size);
+    s.exponents = {1};  // as the pilot weighs
+    GroupMeans means;
+    for (; s.seed < 77 + seeds; ++s.seed) {
+        ProgressiveRenderer r(scene.scene, scene.camera, s, {.threads = 1, .statistics = true});
+        r.render_passes(passes);
+        Moments sums{};
+        for (const StrategyStatistics& k : r.statistics().strategies)
+            sums[group_of(family_of(k.strategy), k.strategy.edges())] += k.energy;
+        for (int g = 0; g < groups; ++g) means[g].add(sums[g]);
+    }
+    return means;
+}
+
+// The same as the pilot's sums have it, for each plan, over pilots with seeds of their own.
+std::vector<GroupMeans> pilot_means(const AgreementScene& scene, const Candidates& candidates,
+                                    int size) {
+    constexpr int seeds = 24;
+    RenderSettings s = planned(scene, {}, size);
+    s.plan.reset();
+    Estimator e = pilot_estimator(*scene.scene, scene.camera, s);
+    std::vector<GroupMeans> means(size_t(candidates.count));
+    for (e.seed = 177; e.seed < 177 + seeds; ++e.seed) {
+        const PilotSums sums = *sample_pilot(e, Grid(e.crop), candidates, 1, nullptr);
+        for (size_t i = 0; i < means.size(); ++i)
+            for (int g = 0; g < groups; ++g) {
+                double sum = 0;
+                for (const BlockSums& b : sums.blocks) sum += b.first[g][i];
+                means[i][g].add(sum / pilot_samples);
+            }
+    }
+    return means;
+}
+
+// From the full plan's samples the pilot tells what each family would contribute in every other
+// plan, by length of the path: the same as renders with that plan have. At 1e-4 in all. Found to
+// fail: light tracing or connections not scaled by how many there are, a family's densities counted
+// in plans that lack it, the pilot's own strategy counted in all.
+TEST(Pilot, SharesLightAmongFamiliesAsPlansDo) {
+    constexpr int size = pilot_columns;  // so that it samples every pixel, and all alike
+    static_assert(pilot_columns == pilot_rows);
+    const Families path{true, true, false, false}, tracing{true, true, true, false};
+    const Families connecting{true, true, false, true}, all;
+    Candidates candidates;
+    candidates.splats_direct = true;  // whose densities are the pilot's own
+    candidates.add(path, 0);
+    for (const int quarters : {1, 4, 8}) candidates.add(tracing, quarters);
+    candidates.add(connecting, 4);
+    for (const int quarters : {1, 2, 4, 8}) candidates.add(all, quarters);
+    candidates.plans[size_t(candidates.count)] = {all, 4};
+    const std::vector<const char*> names = {"area", "rough_metal", "sky_map"};
+    const std::int64_t comparisons = std::int64_t(names.size()) * candidates.count * groups;
+    const double limit = -normal_quantile(sidak_level(1e-4, comparisons) / 2);
+    for (const char* name : names) {
+        const AgreementScene scene = make_agreement_scene(name);
+        const std::vector<GroupMeans> told = pilot_means(scene, candidates, size);
+        for (int i = 0; i < candidates.count; ++i) {
+            const Plan& plan = candidates.plans[size_t(i)];
+            const GroupMeans rendered = rendered_means(scene, plan, size);
+            for (int g = 0; g < groups; ++g) {
+                const RunningMean &a = told[size_t(i)][g], &b = rendered[g];
+                if (a.mean == 0 && b.mean == 0) continue;
+                const double z = welch_z(a, b);
+                EXPECT_LE(std::abs(z), limit) << fmt::format(
+                    "{}, {}, family {} length {}: the pilot has {:.6g}, renders {:.6g}", name,
+                    describe(plan), g / lengths, g % lengths, a.mean, b.mean);
+            }
+        }
+    }
+}
+
 // Relative to the full plan. Over 20 other times sixteen seeds of the renders the quotient of
 // forecast and measured error had a spread (one standard deviation of its logarithm) of at most
 // 0.03; with Sobol numbers, where a path tracer finds what rough metal casts, 0.07. Its mean is at
 // most 0.12 away from none, 0.15 with Sobol numbers, 0.19 on rough metal: blocks are capped, and a
-// plan with few connections is believed to be better than it is. Bounds: three spreads beyond or
-// more, so that other seeds would raise a false alarm in about one run of a hundred; these are
-// fixed. Found to fail: light tracing or connections not scaled by how many there are, the pilot's
-// strategy counted in plans that lack it, roulette of the wrong kind.
+// plan with few connections is believed to be better than it is. Bounds: more than four spreads
+// beyond, 1e-4 in all. Found to fail: light tracing or connections not scaled by how many there
+// are, the pilot's strategy counted in plans that lack it, roulette of the wrong kind.
 TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
     for (const std::string name : {"area", "rough_metal", "sky_map"})
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
@@ -84,7 +161,7 @@ TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
             s.plan.reset();
             s.sampler = sampler;
             const bool spiky = name == "rough_metal" && sampler == SamplerKind::sobol;
-            const double bound = spiky ? 0.5 : 0.25;
+            const double bound = spiky ? 0.5 : 0.3;
             const PlanDecision d = *decide_plan(*scene.scene, scene.camera, s, 1);
             ASSERT_GE(d.forecasts.size(), 9u);
             const double full = measured_error(scene, {{}, 4}, sampler);
