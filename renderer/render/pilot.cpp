@@ -15,10 +15,14 @@ namespace {
 
 // As in the trimmed relMSE: a few pixels that no plan can help must not decide.
 constexpr double trimmed_share = 0.001;
-// What one plan varies more than another is known by blocks of many pixels. A path that it meets
-// once in a million samples is a spike in a pixel, which the trimmed relMSE leaves out, but weighs
-// down a whole block here: this share of the blocks counts as the largest of the others. On the
-// scenes of assets/ path tracing's forecast is then nearest to what it has after ten seconds.
+// What one plan varies more than another is known by blocks of many pixels. A path that a plan
+// lacks a family for, and so meets once in a million samples, is a spike in a pixel, which the
+// trimmed relMSE leaves out, but weighs down a whole block here. So where a single contribution is
+// more than this share of all that a block has, the block is cut to the largest of the others, if
+// it is among so many of the largest. On the scenes of assets/ path tracing's forecast is then
+// nearest to what it has after ten seconds. A small caustic that path tracing hardly finds is no
+// spike: light subpaths meet it many times in each block.
+constexpr double spike = 0.5;
 constexpr double capped_blocks = 0.03;
 // A plan must be so much better than those before it; and so much than path tracing, of which too
 // much is expected mostly: its error comes from paths that other strategies found.
@@ -71,10 +75,21 @@ double trimmed_sum(std::vector<double>& values, size_t trimmed) {
     return sum;
 }
 
-// With the largest so many cut to the largest of the others.
-double capped_sum(std::vector<double>& values, size_t capped) {
-    const double sum = trimmed_sum(values, capped);
-    return sum + double(capped) * values[values.size() - 1 - capped];
+// What a plan varies more than the full one in a block.
+struct Excess {
+    double value = 0;
+    bool spike = false;
+};
+
+// With the spikes among the largest so many cut to the largest of the others.
+double capped_sum(std::vector<Excess>& excess, size_t capped) {
+    std::sort(excess.begin(), excess.end(),
+              [](const Excess& a, const Excess& b) { return a.value < b.value; });
+    const size_t first = excess.size() - capped;
+    double sum = 0;
+    for (size_t i = 0; i < excess.size(); ++i)
+        sum += i >= first && excess[i].spike ? excess[first - 1].value : excess[i].value;
+    return sum;
 }
 
 struct Relative {
@@ -158,16 +173,21 @@ std::vector<double> relative_errors(const PilotSums& r, const Grid& grid,
                     relative.scale[b];
     std::vector<double> errors;
     for (int i = 0; i < candidates.count; ++i) {
-        std::vector<double> excess;
+        const Plan& plan = candidates.plans[size_t(i)];
+        const bool lacks_a_family = plan.families != candidates.plans[candidates.count].families;
+        std::vector<Excess> excess;
         for (size_t b = 0; b < r.blocks.size(); ++b) {
             const BlockSums& sums = r.blocks[b];
             const auto variance = [&](int plan, int g) {
                 return variance_in(sums, plan, g, candidates.plans[plan], relative.per_sample[b]);
             };
-            double sum = 0;
-            for (int g = 0; g < groups; ++g)
+            double sum = 0, squares = 0;
+            for (int g = 0; g < groups; ++g) {
                 sum += shares[g] * (variance(i, g) - variance(candidates.count, g));
-            excess.push_back(relative.scale[b] / relative.per_sample[b] * sum);
+                squares += sums.second[g][i];
+            }
+            excess.push_back({relative.scale[b] / relative.per_sample[b] * sum,
+                              lacks_a_family && sums.largest[i] > spike * squares});
         }
         const double more = capped_sum(excess, size_t(capped_blocks * double(excess.size())));
         errors.push_back(std::max(least_error * full, full + more) / pilot_samples);

@@ -77,15 +77,19 @@ class PilotRecord {
         for (size_t i = 0; i < scale.size(); ++i)
             scale[i] = 1 / (d[0] * shares_[0][i] + d[1] * shares_[1][i] + d[2] * shares_[2][i] +
                             d[3] * shares_[3][i]);
+        ByPlan squares{};
         for (size_t f = 0; f < d.size(); ++f) {
             if (!(d[f] > 0)) continue;
             const int g = group_of(Family(f), c.strategy.edges());
             for (size_t i = 0; i < scale.size(); ++i) {
                 const double found = energy * d[f] * shares_[f][i] * scale[i];
+                const double square = found * value * scale[i];
                 b.first[g][i] += found;
-                b.second[g][i] += found * value * scale[i];
+                b.second[g][i] += square;
+                squares[i] += square;
             }
         }
+        for (size_t i = 0; i < scale.size(); ++i) b.largest[i] = std::max(b.largest[i], squares[i]);
         b.image += energy;
         return energy;
     }
@@ -193,6 +197,9 @@ PilotSums added(std::vector<PilotSums>& parts) {
         const PilotSums& p = parts[i];
         for (size_t b = 0; b < all.blocks.size(); ++b) {
             all.blocks[b].image += p.blocks[b].image;
+            for (size_t i = 0; i < most_candidates + 1; ++i)
+                all.blocks[b].largest[i] =
+                    std::max(all.blocks[b].largest[i], p.blocks[b].largest[i]);
             for (int g = 0; g < groups; ++g) {
                 add_to(all.blocks[b].first[g], p.blocks[b].first[g]);
                 add_to(all.blocks[b].second[g], p.blocks[b].second[g]);

@@ -48,6 +48,7 @@ struct BlockSums {
     // How a plan's strategies would share it, and their second moments; the last one is the full
     // plan.
     std::array<ByPlan, groups> first{}, second{};
+    ByPlan largest{};  // of one contribution, to all second moments together
 };
 
 // Variances per sample of what the full plan's camera samples gather, from the halves of the
