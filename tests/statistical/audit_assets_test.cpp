@@ -3,7 +3,7 @@
 // the paths drawn: it is judged by its standard error (false alarms 1e-4 for a scene at most; held
 // with 20 other seeds). In the full tier the figure itself keeps to the bar of 1e-5 on all scenes
 // but plates, where a few paths of thousands of times the mean decide it: 1.2e-5 +- 1.8e-5, and
-// 1.7e-5 +- 1.2e-5 over 2e7 paths.
+// -0.4e-5 +- 0.75e-5 over 4e7 paths of two other seeds.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,9 @@ TEST_P(AuditAssets, WeightsAndRaysHold) {
     EXPECT_LE(double(r.rays.unequal.count), 3 + 1e-3 * double(r.rays.pairs));
     const WeightAudit& w = r.weights[power_heuristic];
     // What is not known to the bar cannot be held to it.
-    if (full_tier() && w.bias_error < 1e-5) EXPECT_LE(std::abs(w.bias), 1e-5);
+    if (full_tier() && w.bias_error < 1e-5) {
+        EXPECT_LE(std::abs(w.bias), 1e-5);
+    }
     std::cout << fmt::format(
         "{}: {} paths of up to {} edges; own pdfs median {:.1e}, 99.9 % {:.1e}, bias {:+.1e} "
         "+- {:.1e}; "
