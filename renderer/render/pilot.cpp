@@ -173,8 +173,8 @@ std::vector<double> relative_errors(const PilotSums& r, const Grid& grid,
                     relative.scale[b];
     std::vector<double> errors;
     for (int i = 0; i < candidates.count; ++i) {
-        const Plan& plan = candidates.plans[size_t(i)];
-        const bool lacks_a_family = plan.families != candidates.plans[candidates.count].families;
+        const bool lacks_a_family =
+            candidates.plans[i].families != candidates.plans[candidates.count].families;
         std::vector<Excess> excess;
         for (size_t b = 0; b < r.blocks.size(); ++b) {
             const BlockSums& sums = r.blocks[b];

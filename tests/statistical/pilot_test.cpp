@@ -150,9 +150,9 @@ TEST(Pilot, SharesLightAmongFamiliesAsPlansDo) {
 // forecast and measured error had a spread (one standard deviation of its logarithm) of at most
 // 0.03; with Sobol numbers, where a path tracer finds what rough metal casts, 0.07. It is at most
 // 0.13 away from none with these seeds, 0.15 on rough metal with Sobol numbers: a plan with few
-// connections is believed to be better than it is. Bounds: more than four spreads beyond, 1e-4 in
-// all. Found to fail: light tracing or connections not scaled by how many there are, the pilot's
-// strategy counted in plans that lack it, roulette of the wrong kind.
+// connections is believed to be better than it is. Bounds: four spreads beyond or more, 1e-4. Found
+// to fail: light tracing or connections not scaled by how many there are, the pilot's strategy
+// counted in plans that lack it, roulette of the wrong kind.
 TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
     for (const std::string name : {"area", "rough_metal", "sky_map"})
         for (const SamplerKind sampler : {SamplerKind::independent, SamplerKind::sobol}) {
@@ -161,7 +161,7 @@ TEST(Pilot, ForecastsTheErrorsThatPlansHave) {
             s.plan.reset();
             s.sampler = sampler;
             const bool spiky = name == "rough_metal" && sampler == SamplerKind::sobol;
-            const double bound = spiky ? 0.5 : 0.3;
+            const double bound = spiky ? 0.5 : 0.25;
             const PlanDecision d = *decide_plan(*scene.scene, scene.camera, s, 1);
             ASSERT_GE(d.forecasts.size(), 9u);
             const double full = measured_error(scene, {{}, 4}, sampler);
