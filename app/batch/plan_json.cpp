@@ -13,6 +13,7 @@ Json plan_json(const PlanDecision& d) {
         j["families"] = to_string(f.plan.families);
         j["light_subpaths_per_pixel"] = f.plan.light_quarters / 4.0;
         j["splats_direct_light"] = f.plan.splats_direct;
+        j["direct_light_samples"] = f.plan.direct_samples;
         j["cost"] = f.cost;
         j["error"] = std::isfinite(f.error) ? Json(f.error) : Json(nullptr);
         j["time"] = std::isfinite(f.time()) ? Json(f.time()) : Json(nullptr);

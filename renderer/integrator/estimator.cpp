@@ -65,7 +65,7 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
     // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
     // On a path of two edges light tracing is all that the sum of emission's density stands for.
     mis::EmitterHitPdfs pdfs{hit->pdfs.origin * e.share_of(k.edges()), hit->pdfs.leave,
-                             hit->pdfs.next_event, true};
+                             double(hit->pdfs.next_event) * e.next_events(k.edges()), true};
     e.at(Work::weights);
     fill_weights<F>(e, c, [&](const auto& h, int i) {
         pdfs.next_event_feasible = e.weighed[i].next_event;
@@ -90,13 +90,15 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
     const double cos_v = abs_dot(v.ng, n->direction);
     Contribution& c = found.emplace();
     c.strategy = {v.index + 1, 1};
-    c.value = v.throughput * f.f * n->value * static_cast<float>(cos_v);
+    const int count = e.next_events(c.strategy.edges());
+    c.value = v.throughput * f.f * n->value * static_cast<float>(cos_v / count);
 
     const double g_light = n->cos_theta / double(n->distance_squared);  // 1 at infinity
     // As in hit_light(): towards the camera a path of two edges has light tracing alone.
     const mis::Side side{
         n->pdfs.leave * cos_v / n->distance_squared * e.share_of(c.strategy.edges()), f.pdf_rev_w};
-    mis::NextEventPdfs pdfs{n->pdfs.next_event, n->pdfs.origin, f.pdf_fwd_w * g_light};
+    mis::NextEventPdfs pdfs{double(n->pdfs.next_event) * count, n->pdfs.origin,
+                            f.pdf_fwd_w * g_light};
     e.at(Work::weights);
     fill_weights<F>(e, c, [&](const auto& h, int i) {
         pdfs.hit_feasible = !is_delta(kind) && e.weighed[i].emitter_hit;

@@ -148,7 +148,9 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass, 
         const PathVertex& v = walk.vertex;
         if (v.connectible) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
-                record_own(e, connect_to_light<F>(e, v, walk.numbers.connect, rays), record);
+                for_each_next_event(e, v.index, walk.numbers.connect, [&](const vec4& u) {
+                    record_own(e, connect_to_light<F>(e, v, u, rays), record);
+                });
             if constexpr (!F.path_tracer) connect_to_subpaths<F>(e, v, light, place, record, rays);
         }
         if (has_found_all(e, walk.index) || !scatter(walk)) return;

@@ -46,10 +46,11 @@ PermutedGroup permute_group(std::uint64_t pixel, std::uint64_t pixels, std::uint
 
 // The strategy that the previous vertex's vcm stands for. On the camera side vertex i
 // stands for the connection of its i predecessors to a longer light subpath (light tracing for i =
-// 1); on the light side for i light vertices (next event for i = 1).
+// 1); on the light side for i light vertices (next event for i = 1) and the camera's, three or
+// more: the edge is followed by another.
 Strategy previous_strategy(const Walk& w) {
     const int i = w.index - 1;
-    return w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{2, i};
+    return w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{3, i};
 }
 
 // Sums at vertex 1: eq. (22)-(25), (34), (37), (38).

@@ -57,6 +57,10 @@ struct Estimator {
     // direct_share() in render/settings.h. Zero: light tracing does not make such paths.
     double direct_share = 1;
 
+    // n of next event on paths of two edges: how often a camera walk's first surface asks for
+    // light, 1 or 2 (splitting; Arvo and Kirk 1990, "Particle transport and image synthesis").
+    int direct_samples = 1;
+
     // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy
     // keeps its own expectation, whatever the survival probability.
     int roulette_start = 4;
@@ -68,6 +72,9 @@ struct Estimator {
 
     // n of eq. (22) over light_subpaths, for paths of so many edges.
     double share_of(int edges) const { return edges == 2 ? direct_share : 1; }
+
+    // n of next event on paths of so many edges.
+    int next_events(int edges) const { return edges == 2 ? direct_samples : 1; }
 
     // Whether light tracing makes paths of so many edges.
     bool splats(int edges) const { return families.light_tracing && share_of(edges) > 0; }
@@ -82,6 +89,7 @@ struct Estimator {
     double count(const Strategy& k, int exponent) const {
         const Family family = family_of(k);
         if (!weighed[exponent].has(family)) return 0;
+        if (family == Family::next_event) return next_events(k.edges());
         return family == Family::connection ? connection_share : 1;
     }
 };
@@ -127,6 +135,17 @@ struct VertexNumbers {
 // What next event makes of a vertex's numbers.
 inline NextEventNumbers next_event_numbers(const vec4& u) {
     return {fine_number(u.x, u.w), {u.y, u.z}};
+}
+
+// Calls `use` with the numbers of every next event from the camera vertex with that number. The
+// second ones lie in the other half of each dimension: the first binary digit is the other one,
+// which keeps what stratifies them.
+template <class Use>
+void for_each_next_event(const Estimator& e, int index, const vec4& u, const Use& use) {
+    use(u);
+    if (e.next_events(index + 1) == 1) return;
+    const auto other_half = [](float x) { return x < 0.5f ? x + 0.5f : x - 0.5f; };
+    use(vec4(other_half(u.x), other_half(u.y), other_half(u.z), u.w));
 }
 
 struct Walk {

@@ -115,7 +115,8 @@ std::string settings_json(const RenderSettings& s) {
     if (s.plan)
         j["plan"] = {{"families", to_string(s.plan->families)},
                      {"light_subpaths_per_pixel", s.plan->light_quarters / 4.0},
-                     {"splats_direct_light", s.plan->splats_direct}};
+                     {"splats_direct_light", s.plan->splats_direct},
+                     {"direct_light_samples", s.plan->direct_samples}};
     j["width"] = s.width;
     j["height"] = s.height;
     if (s.crop) j["crop"] = {s.crop->x0, s.crop->y0, s.crop->x1, s.crop->y1};

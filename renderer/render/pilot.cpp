@@ -32,7 +32,7 @@ constexpr double least_error = 0.02;
 // Prices, in units of a camera walk's ray: from a profile, rounded, and held against what leaving
 // out a family saves on the scenes of assets/: a tenth of the render time off at most, mostly less.
 struct Prices {
-    double sample = 0.5, camera_ray = 1, next_event = 0.7;
+    double sample = 0.5, camera_ray = 1, next_event = 0.7, second_next_event = 1.3;
     double subpath = 0.4, light_ray = 0.9, light_tracing = 0.75, connection = 0.65;
 };
 
@@ -64,6 +64,7 @@ Candidates find_candidates(const Scene& scene, const Estimator& full) {
         for (const int quarters : {4, 2, 1}) c.add(f, quarters);
         if (f.light_tracing) c.add(f, 8);
     }
+    c.end(f);
     return c;
 }
 
@@ -75,7 +76,7 @@ double trimmed_sum(std::vector<double>& values, size_t trimmed) {
     return sum;
 }
 
-// What a plan varies more than the full one in a block.
+// What a plan varies more than the pilot's samples in a block.
 struct Excess {
     double value = 0;
     bool spike = false;
@@ -123,11 +124,15 @@ double variance_in(const BlockSums& sums, int plan, int g, const Plan& p, double
     if (family == Family::light_tracing) return square;
     // Every pixel's samples take turns in meeting a light subpath: chance decides about a
     // connection's value, not whether there is one.
-    return square - mean / (family == Family::connection ? connection_share(p) : 1);
+    if (family == Family::connection) return square - mean / connection_share(p);
+    // Samples of direct light from one surface have the surface in common.
+    const bool split = g == group_of(Family::next_event, 2) && p.direct_samples > 1;
+    return square * (split ? 1 + sums.correlation() : 1) - mean;
 }
 
 // Over what moments say, the variance of what a camera sample gathers is lower by stratification
-// and higher because what one subpath finds comes together: measured for the full plan, by group.
+// and higher because what one subpath finds comes together: measured on the pilot's samples, by
+// group.
 // Light that a longer walk hits by chance stays where it is: of that a plan has more where others
 // would have found it better, and it comes in spikes that nothing smooths.
 Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c) {
@@ -142,10 +147,10 @@ Moments measured_shares(const PilotSums& r, const Relative& relative, const Cand
     }
     for (size_t b = 0; b < r.blocks.size(); ++b)
         for (int g = 0; g < groups; ++g)
-            expected[g] +=
-                relative.scale[b] / relative.per_sample[b] *
-                variance_in(r.blocks[b], c.count, g, c.plans[c.count], relative.per_sample[b]) /
-                pilot_passes;
+            expected[g] += relative.scale[b] / relative.per_sample[b] *
+                           variance_in(r.blocks[b], c.sampled(), g, c.plans[c.sampled()],
+                                       relative.per_sample[b]) /
+                           pilot_passes;
     shares.fill(1);
     for (int g = 0; g < groups; ++g) {
         if (Family(g / lengths) == Family::light_tracing || !(expected[g] > 0)) continue;
@@ -156,43 +161,49 @@ Moments measured_shares(const PilotSums& r, const Relative& relative, const Cand
     return shares;
 }
 
+// What a plan varies more than the pilot's samples, over all blocks.
+double excess_of(const PilotSums& r, const Relative& relative, const Moments& shares,
+                 const Candidates& candidates, int plan) {
+    const bool lacks_a_family =
+        candidates.plans[plan].families != candidates.plans[candidates.sampled()].families;
+    std::vector<Excess> excess;
+    for (size_t b = 0; b < r.blocks.size(); ++b) {
+        const BlockSums& sums = r.blocks[b];
+        const auto variance = [&](int i, int g) {
+            return variance_in(sums, i, g, candidates.plans[i], relative.per_sample[b]);
+        };
+        double sum = 0, squares = 0;
+        for (int g = 0; g < groups; ++g) {
+            sum += shares[g] * (variance(plan, g) - variance(candidates.sampled(), g));
+            squares += sums.second[g][plan];
+        }
+        excess.push_back({relative.scale[b] / relative.per_sample[b] * sum,
+                          lacks_a_family && sums.largest[plan] > spike * squares});
+    }
+    return capped_sum(excess, size_t(capped_blocks * double(excess.size())));
+}
+
 // The relative squared error of each plan, per sample of a pixel; the last element is that of the
-// full one. What the full one's camera samples vary is measured as it is, all that comes together
-// included; what another has more follows from moments.
+// full one. What the pilot's own camera samples vary is measured as it is, all that comes together
+// included; what another plan has more follows from moments.
 std::vector<double> relative_errors(const PilotSums& r, const Grid& grid,
                                     const Candidates& candidates) {
     const Relative relative = relative_scales(r, grid);
     const Moments shares = measured_shares(r, relative, candidates);
     std::vector<double> squares;
     for (const PixelVariances& v : r.pixels) squares.push_back(v.all * relative.scale[v.block]);
-    double full = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
-    full *= pilot_passes;
+    double measured = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
+    measured *= pilot_passes;
+    const int sampled = candidates.sampled();
     for (size_t b = 0; b < r.blocks.size(); ++b)
         for (int k = 0; k < lengths; ++k)
-            full += r.blocks[b].second[group_of(Family::light_tracing, k + 2)][candidates.count] *
-                    relative.scale[b];
+            measured += r.blocks[b].second[group_of(Family::light_tracing, k + 2)][sampled] *
+                        relative.scale[b];
     std::vector<double> errors;
-    for (int i = 0; i < candidates.count; ++i) {
-        const bool lacks_a_family =
-            candidates.plans[i].families != candidates.plans[candidates.count].families;
-        std::vector<Excess> excess;
-        for (size_t b = 0; b < r.blocks.size(); ++b) {
-            const BlockSums& sums = r.blocks[b];
-            const auto variance = [&](int plan, int g) {
-                return variance_in(sums, plan, g, candidates.plans[plan], relative.per_sample[b]);
-            };
-            double sum = 0, squares = 0;
-            for (int g = 0; g < groups; ++g) {
-                sum += shares[g] * (variance(i, g) - variance(candidates.count, g));
-                squares += sums.second[g][i];
-            }
-            excess.push_back({relative.scale[b] / relative.per_sample[b] * sum,
-                              lacks_a_family && sums.largest[i] > spike * squares});
-        }
-        const double more = capped_sum(excess, size_t(capped_blocks * double(excess.size())));
-        errors.push_back(std::max(least_error * full, full + more) / pilot_samples);
+    for (int i = 0; i <= candidates.full(); ++i) {
+        const double more = excess_of(r, relative, shares, candidates, i);
+        errors.push_back(std::max(least_error * measured, measured + more) / pilot_samples);
     }
-    errors.push_back(full / pilot_samples);
     return errors;
 }
 
@@ -206,9 +217,12 @@ double cost_of(const Plan& p, const PilotSums& n) {
             if (k == Strategy{1, 2} && !p.splats_direct) continue;
             rays[size_t(family_of(k))] += double(n.shadow_rays[strategy_index(k)]);
         }
+    // The pilot's are two for each surface.
+    const double direct = double(n.shadow_rays[strategy_index({2, 1})]) / 2;
     const double camera = price.sample * pilot_samples +
                           price.camera_ray * double(n.camera.closest) +
-                          price.next_event * rays[size_t(Family::next_event)];
+                          price.next_event * (rays[size_t(Family::next_event)] - direct) +
+                          price.second_next_event * (p.direct_samples - 1) * direct;
     double light = price.subpath * pilot_samples + price.light_ray * double(n.light.closest);
     if (p.families.light_tracing)
         light += price.light_tracing * rays[size_t(Family::light_tracing)];
@@ -270,7 +284,7 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
     make_estimator(scene, camera, settings);  // throws what the pilot does not look at
     const Estimator e = pilot_estimator(scene, camera, settings);
     const Candidates candidates = find_candidates(scene, e);
-    const Plan full{e.families, e.families.needs_light_subpaths() ? 4 : 0};
+    const Plan full = candidates.plans[candidates.full()];
     PlanDecision decision{candidates.count > 0 ? candidates.plans[0] : full, {}};
     // Strategies that were asked for one by one are there whatever they cost.
     if (!settings.only.empty()) decision.plan = full;
@@ -306,15 +320,16 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
 
 std::string describe(const Plan& plan) {
     const Families& f = plan.families;
-    if (!f.needs_light_subpaths()) return "path tracing, no light subpaths";
+    const char* twice = plan.direct_samples > 1 ? ", next event twice at the first surface" : "";
+    if (!f.needs_light_subpaths()) return fmt::format("path tracing, no light subpaths{}", twice);
     std::string what = "all families";
     if (!f.connection) what = "path and light tracing, no connections";
     if (!f.light_tracing) what = "connections, no light tracing";
     constexpr const char* numbers[] = {"no", "a quarter of a", "half a", "", "one", "", "", "",
                                        "two"};
-    return fmt::format("{}, {} light subpath{} per pixel{}", what, numbers[plan.light_quarters],
+    return fmt::format("{}, {} light subpath{} per pixel{}{}", what, numbers[plan.light_quarters],
                        plan.light_quarters > 4 ? "s" : "",
-                       plan.splats_direct ? "" : ", direct light by next event");
+                       plan.splats_direct ? "" : ", direct light by next event", twice);
 }
 
 std::string describe(const PlanDecision& decision) {

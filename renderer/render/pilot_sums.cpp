@@ -33,36 +33,50 @@ Densities densities(const Contribution& c) {
             std::max(0.0, sum(all, true) - unconnected)};
 }
 
-// What a plan has of the full one's samples, by family.
-std::array<ByPlan, 4> sample_shares(const Candidates& c) {
-    std::array<ByPlan, 4> shares{};
+// What a plan has of the pilot's samples, of one family.
+double sample_share(const Plan& p, Family family, bool direct_light, int direct_samples) {
+    if (!p.families.has(family)) return 0;
+    if (family == Family::light_tracing) return light_share(p);
+    if (family == Family::connection) return connection_share(p);
+    const bool split = family == Family::next_event && direct_light;
+    return split ? double(p.direct_samples) / direct_samples : 1;
+}
+
+using SampleShares = std::array<ByPlan, 4>;  // by family
+SampleShares sample_shares(const Candidates& c, bool direct_light) {
+    SampleShares shares{};
+    const int direct_samples = c.plans[c.sampled()].direct_samples;
     for (size_t i = 0; i < c.plans.size(); ++i)
-        for (size_t f = 0; f < shares.size(); ++f) {
-            const Plan& p = c.plans[i];
-            const Family family{std::uint8_t(f)};
-            if (!p.families.has(family)) continue;
-            shares[f][i] = family == Family::light_tracing ? light_share(p)
-                           : family == Family::connection  ? connection_share(p)
-                                                           : 1;
-        }
+        for (size_t f = 0; f < shares.size(); ++f)
+            shares[f][i] = sample_share(c.plans[i], Family(f), direct_light, direct_samples);
     return shares;
 }
 
 class PilotRecord {
   public:
     PilotRecord(const Grid& grid, const Candidates& candidates, std::vector<BlockSums>& blocks)
-        : grid_(grid), shares_(sample_shares(candidates)), blocks_(blocks) {}
+        : grid_(grid),
+          direct_(sample_shares(candidates, true)),
+          indirect_(sample_shares(candidates, false)),
+          blocks_(blocks) {}
 
     void begin(int x, int y) {
         block_ = grid_.block(x, y);
         gathered_ = {};
+        direct_found_ = 0;
     }
     // The sample's weighted luminances.
     const Moments& gathered() const { return gathered_; }
 
     bool wants(const Strategy&) const { return true; }
     void contribution(const Contribution& c) {
-        gathered_[group_of(family_of(c.strategy), c.strategy.edges())] += add(blocks_[block_], c);
+        BlockSums& b = blocks_[block_];
+        const double energy = add(b, c);
+        gathered_[group_of(family_of(c.strategy), c.strategy.edges())] += energy;
+        if (c.strategy != Strategy{2, 1}) return;
+        b.direct_square += sqr(energy) / 2;
+        b.direct_product += energy * direct_found_;
+        direct_found_ = energy;
     }
     void splat(int x, int y, const Contribution& c) { add(blocks_[grid_.block(x, y)], c); }
 
@@ -72,17 +86,18 @@ class PilotRecord {
         const double value = luminance(c.value), weight = c.weights[all];
         if (!(value > 0) || !(weight > 0) || !std::isfinite(value)) return 0;
         const Densities d = densities(c);
+        const SampleShares& shares = c.strategy.edges() == 2 ? direct_ : indirect_;
         const double energy = weight * value;
         ByPlan scale;
         for (size_t i = 0; i < scale.size(); ++i)
-            scale[i] = 1 / (d[0] * shares_[0][i] + d[1] * shares_[1][i] + d[2] * shares_[2][i] +
-                            d[3] * shares_[3][i]);
+            scale[i] = 1 / (d[0] * shares[0][i] + d[1] * shares[1][i] + d[2] * shares[2][i] +
+                            d[3] * shares[3][i]);
         ByPlan squares{};
         for (size_t f = 0; f < d.size(); ++f) {
             if (!(d[f] > 0)) continue;
             const int g = group_of(Family(f), c.strategy.edges());
             for (size_t i = 0; i < scale.size(); ++i) {
-                const double found = energy * d[f] * shares_[f][i] * scale[i];
+                const double found = energy * d[f] * shares[f][i] * scale[i];
                 const double square = found * value * scale[i];
                 b.first[g][i] += found;
                 b.second[g][i] += square;
@@ -95,10 +110,11 @@ class PilotRecord {
     }
 
     const Grid& grid_;
-    const std::array<ByPlan, 4> shares_;
+    const SampleShares direct_, indirect_;
     std::vector<BlockSums>& blocks_;
     int block_ = 0;
     Moments gathered_{};
+    double direct_found_ = 0;  // by the sample's last next event from the first surface
 };
 
 template <size_t n>
@@ -197,7 +213,9 @@ PilotSums added(std::vector<PilotSums>& parts) {
         const PilotSums& p = parts[i];
         for (size_t b = 0; b < all.blocks.size(); ++b) {
             all.blocks[b].image += p.blocks[b].image;
-            for (size_t i = 0; i < most_candidates + 1; ++i)
+            all.blocks[b].direct_square += p.blocks[b].direct_square;
+            all.blocks[b].direct_product += p.blocks[b].direct_product;
+            for (size_t i = 0; i < all.blocks[b].largest.size(); ++i)
                 all.blocks[b].largest[i] =
                     std::max(all.blocks[b].largest[i], p.blocks[b].largest[i]);
             for (int g = 0; g < groups; ++g) {
@@ -220,6 +238,7 @@ Estimator pilot_estimator(const Scene& scene, const CameraDescription& camera, R
     s.exponents.assign(column_count, 1.0);
     s.seed = pilot_seed;
     Estimator e = make_estimator(scene, camera, s);
+    e.direct_samples = 2;
     e.weighed[emitter_hits] = e.families & Families{true, false, false, false};
     e.weighed[camera_side].light_tracing = e.weighed[camera_side].connection = false;
     e.weighed[without_connections].connection = false;

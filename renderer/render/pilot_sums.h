@@ -21,14 +21,32 @@ inline constexpr int pilot_columns = 64, pilot_rows = 64, pilot_passes = 16;
 inline constexpr int pilot_pixels = pilot_columns * pilot_rows;
 inline constexpr int pilot_samples = pilot_pixels * pilot_passes;
 
-inline constexpr size_t most_candidates = 10;
+inline constexpr size_t most_candidates = 20;
 struct Candidates {
-    std::array<Plan, most_candidates + 1> plans;  // behind them the full one
+    // Behind them the full one, and what the pilot samples: the same with direct light sampled
+    // twice, which tells what two samples have in common.
+    std::array<Plan, most_candidates + 2> plans;
     int count = 0;
     bool splats_direct = true;  // of the plans with light tracing
 
+    int full() const { return count; }
+    int sampled() const { return count + 1; }
+
     void add(const Families& f, int quarters) {
         plans[count++] = {f, quarters, splats_direct || !f.light_tracing};
+    }
+    // Ends the list: each once more with direct light sampled twice, and what lies behind them.
+    void end(const Families& all) {
+        const int unsplit = all.next_event ? count : 0;
+        for (int i = 0; i < unsplit; ++i) plans[count++] = split(plans[i]);
+        plans[full()] = {all, all.needs_light_subpaths() ? 4 : 0};
+        plans[sampled()] = split(plans[full()]);
+    }
+
+  private:
+    static Plan split(Plan p) {
+        p.direct_samples = 2;
+        return p;
     }
 };
 
@@ -40,19 +58,22 @@ inline int group_of(Family f, int edges) {
 }
 using Moments = std::array<double, groups>;
 // One number for each plan: side by side, since all are summed at once.
-using ByPlan = std::array<double, most_candidates + 1>;
+using ByPlan = std::array<double, most_candidates + 2>;
 
 // Sums over what the samples find in a block.
 struct BlockSums {
     double image = 0;  // of luminance
-    // How a plan's strategies would share it, and their second moments; the last one is the full
-    // plan.
+    // How a plan's strategies would share it, and their second moments.
     std::array<ByPlan, groups> first{}, second{};
     ByPlan largest{};  // of one contribution, to all second moments together
+    // Of the weighted luminances of direct light that next event finds from one surface: the mean
+    // of the squares, and the product of two.
+    double direct_square = 0, direct_product = 0;
+    // What two samples from one surface have in common.
+    double correlation() const { return direct_square > 0 ? direct_product / direct_square : 0; }
 };
 
-// Variances per sample of what the full plan's camera samples gather, from the halves of the
-// passes.
+// Variances per sample of what the pilot's camera samples gather, from the halves of the passes.
 struct PixelVariances {
     int block = 0;
     double all = 0;
@@ -83,7 +104,7 @@ struct Grid {
 inline double light_share(const Plan& plan) { return plan.light_quarters / 4.0; }
 inline double connection_share(const Plan& plan) { return std::min(1.0, light_share(plan)); }
 
-// Binds the pilot's samples to a scene; throws as make_estimator().
+// Binds the pilot's samples, Candidates::sampled(), to a scene; throws as make_estimator().
 Estimator pilot_estimator(const Scene& scene, const CameraDescription& camera,
                           RenderSettings settings);
 

@@ -59,6 +59,12 @@ std::uint64_t light_subpaths(const Plan& plan, std::uint64_t pixels) {
     return std::max<std::uint64_t>(1, pixels * quarters / 4);
 }
 
+int direct_samples(const Plan& plan) {
+    if (plan.direct_samples < 1 || plan.direct_samples > 2)
+        refuse("impossible number of next events", "plan", "let auto decide");
+    return plan.direct_samples;
+}
+
 }  // namespace
 
 std::string_view to_string(Technique t) { return word_of(t, techniques); }
@@ -134,6 +140,7 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     // A plan may be older than the families; without next event splats are all there is.
     const bool spared = planned && !s.plan->splats_direct && e.families.next_event;
     e.direct_share = spared ? 0 : direct_share(scene, e.families);
+    if (planned) e.direct_samples = direct_samples(*s.plan);
     return e;
 }
 

@@ -96,7 +96,9 @@ void add_plan(const PreparedScene& p, const Case& usual, std::vector<Case>& case
     more = chosen;
     more.splats_direct = true;
     add("direct light's splats", why, more);
-    add("all that auto leaves out", why, Plan{full, std::max(chosen.light_quarters, 4)});
+    more.families = full;
+    more.light_quarters = std::max(chosen.light_quarters, 4);
+    add("all that auto leaves out", why, more);
 }
 
 // What the code of a pass knows beforehand.

@@ -18,13 +18,15 @@ long double log_of(double x) {
 }  // namespace
 
 PathSetting path_setting(const Estimator& e) {
-    return {e.families, double(e.light_subpaths), e.max_bounces, e.direct_share,
-            e.connection_share};
+    return {e.families,     double(e.light_subpaths), e.max_bounces,
+            e.direct_share, e.connection_share,       e.direct_samples};
 }
 
 double light_tracing_count(const PathSetting& s, int edges) {
     return s.light_subpaths * (edges == 2 ? s.direct_share : 1);
 }
+
+int next_event_count(const PathSetting& s, int edges) { return edges == 2 ? s.direct_samples : 1; }
 
 bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     const int last = p.edges();
@@ -54,7 +56,7 @@ long double log_density(const PathPdfs& p, const Strategy& k, const PathSetting&
         sum += log_of(p.vertices[i].camera_w) + log_of(p.vertices[i].camera_g);
     for (int i = k.s; i < last; ++i)
         sum += log_of(p.vertices[i].light_w) + log_of(p.vertices[i].light_g);
-    if (k.t == 1) sum += log_of(p.next_event);
+    if (k.t == 1) sum += log_of(next_event_count(setting, last)) + log_of(p.next_event);
     if (k.t >= 2) sum += log_of(p.emission);
     return sum;
 }

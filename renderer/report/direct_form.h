@@ -42,11 +42,13 @@ struct PathSetting {
     double light_subpaths = 1;
     int max_bounces = 1000;
     double direct_share = 1, connection_share = 1;  // as in Estimator
+    int direct_samples = 1;
 };
 PathSetting path_setting(const Estimator& estimator);
 
-// n of eq. (22) for light tracing.
+// n of eq. (22) for light tracing, and for next event.
 double light_tracing_count(const PathSetting& setting, int edges);
+int next_event_count(const PathSetting& setting, int edges);
 
 // Can this strategy make the path at all? (2,0) and (1,1) are no strategies of weighted paths.
 bool is_feasible(const PathPdfs& path, const Strategy& strategy, const PathSetting& setting);

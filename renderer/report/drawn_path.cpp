@@ -165,9 +165,9 @@ void visit_hit(const Estimator& e, const RecordedWalk& camera, Reached reached,
     visit(p);
 }
 
-void visit_next_event(const Estimator& e, const RecordedWalk& camera, const Visit& visit) {
+void visit_next_event(const Estimator& e, const RecordedWalk& camera, const vec4& u,
+                      const Visit& visit) {
     const PathVertex& v = camera.now.vertex;
-    const vec4& u = camera.now.numbers.connect;
     RayCounts rays;
     const std::optional<Contribution> c = connect_to_light(e, v, u, rays);
     if (!c) return;
@@ -302,7 +302,8 @@ DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, con
         if (reached == Reached::surface) add_vertex(camera);
         if (reached != Reached::surface || camera.now.index > e.max_bounces) return sample;
         if (camera.now.vertex.connectible) {
-            visit_next_event(e, camera, visit);
+            for_each_next_event(e, camera.now.index, camera.now.numbers.connect,
+                                [&](const vec4& u) { visit_next_event(e, camera, u, visit); });
             visit_connections(e, sample, visit);
         }
         if (!scatter_on_record(camera)) return sample;

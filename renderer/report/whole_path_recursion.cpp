@@ -10,6 +10,7 @@ bool has(const PathSetting& setting, const Strategy& k) {
 // n as mis.h wants it beside a vcm.
 double count(const PathSetting& setting, const Strategy& k) {
     if (!has(setting, k)) return 0;
+    if (k.t == 1) return next_event_count(setting, k.edges());
     return k.s >= 2 && k.t >= 2 ? setting.connection_share : 1;
 }
 
@@ -44,7 +45,7 @@ std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const PathSe
         states[j] =
             mis::advance(h, states[j - 1],
                          {p.from_light(i), p.vertices[i + 1].camera_g, p.vertices[i + 2].camera_w,
-                          p.vertices[i + 1].delta, count(setting, {2, j - 1})});
+                          p.vertices[i + 1].delta, count(setting, {3, j - 1})});
     }
     return states;
 }
@@ -56,10 +57,11 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting
     const int s = k.s;
     const double tracing = light_tracing_count(setting, k.edges());
     const double share = tracing / setting.light_subpaths;
+    const double next_event = c.next_event * next_event_count(setting, k.edges());
     const mis::State camera = from_camera[s - 1];
     if (k.t == 0)
         return mis::emitter_hit(h, camera,
-                                {c.emission * share, c.vertices[s - 2].light_w, c.next_event,
+                                {c.emission * share, c.vertices[s - 2].light_w, next_event,
                                  s > 2 && has(setting, {s - 1, 1})});
     const double towards_camera = l.vertices[s - 1].light_w * c.vertices[s - 1].light_g;
     const double towards_light = c.vertices[s].camera_w * c.vertices[s].camera_g;
@@ -72,7 +74,7 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting
     if (k.t == 1)
         return mis::next_event(
             h, camera, camera_side,
-            {c.next_event, c.emission, towards_light, c.hittable && setting.families.emitter_hit});
+            {next_event, c.emission, towards_light, c.hittable && setting.families.emitter_hit});
     const mis::Side light_side{towards_light, l.vertices[s + 1].camera_w,
                                count(setting, {s + 1, k.t - 1})};
     return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side,

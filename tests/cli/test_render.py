@@ -198,6 +198,7 @@ class Choices(CliTest):
         self.assertIn("auto: path tracing, no light subpaths", done.stderr)
         plan = json.loads((self.folder / "told.json").read_text())["plan"]
         self.assertEqual(0, plan["light_subpaths_per_pixel"])
+        self.assertEqual(1, plan["direct_light_samples"])
         self.assertGreater(len(plan["weighed_up"]), 3)
 
     def test_no_bounces_show_emitters_alone(self):

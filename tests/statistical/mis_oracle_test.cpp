@@ -198,11 +198,17 @@ TEST_P(MisOracle, KnowsTheFamiliesTakenOut) {
                                    {{true, true, true, false}}});
 }
 
-// The same where not every camera sample has connections, or there are more light subpaths.
+// The same where not every camera sample has connections, there are more light subpaths, or direct
+// light is sampled twice.
 TEST_P(MisOracle, KnowsHowManySamplesThereAre) {
-    expect_weights_of(
-        GetParam(),
-        {{{}, 1}, {{true, true, false, true}, 2}, {{}, 8}, {{}, 4, false}, {{}, 1, false}});
+    expect_weights_of(GetParam(), {{{}, 1},
+                                   {{true, true, false, true}, 2},
+                                   {{}, 8},
+                                   {{}, 4, false},
+                                   {{}, 1, false},
+                                   {{}, 4, true, 2},
+                                   {{}, 1, false, 2},
+                                   {{true, true, false, false}, 0, true, 2}});
 }
 
 // Sum over the strategies of a path, each with the pdfs that it evaluates from its own side.

@@ -32,9 +32,10 @@ RenderSettings with_families(const std::string& words) {
     return s;
 }
 
-RenderSettings planned(const std::string& words, int quarters, bool splats_direct = true) {
+RenderSettings planned(const std::string& words, int quarters, bool splats_direct = true,
+                       int direct_samples = 1) {
     RenderSettings s = small(Technique::automatic);
-    s.plan = Plan{parse_families(words), quarters, splats_direct};
+    s.plan = Plan{parse_families(words), quarters, splats_direct, direct_samples};
     return s;
 }
 
@@ -57,6 +58,10 @@ std::vector<Setting> all_settings() {
         {"plan with few light subpaths", planned("emitter,next-event,light", 1), power2_facts},
         {"plan with few connections", planned("emitter,next-event,light,connect", 1), power2_facts},
         {"plan without direct splats", planned("emitter,next-event,light,connect", 4, false),
+         power2_facts},
+        {"plan of a path tracer, direct light twice", planned("emitter,next-event", 0, true, 2),
+         path_tracer_facts},
+        {"plan with direct light twice", planned("emitter,next-event,light,connect", 4, true, 2),
          power2_facts},
         {"plan with many", planned("emitter,next-event,light,connect", 8), power2_facts},
         {"balance", with_exponents(Technique::path, {1}), no_facts},

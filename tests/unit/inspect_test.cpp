@@ -135,8 +135,9 @@ TEST(InspectedSample, ContributionsAreTheFilmsWithEverySetting) {
     s = small();
     s.only = {{2, 2}, {1, 3}, {3, 0}};
     EXPECT_GT(expect_exact(subject(scene, s)).contributions, 0);
-    // A plan that leaves direct light to next event, and one for every fourth sample.
-    for (const Plan& plan : {Plan{{}, 4, false}, Plan{{}, 1, false}}) {
+    // Plans that leave direct light to next event, one for every fourth sample and one twice.
+    for (const Plan& plan :
+         {Plan{{}, 4, false}, Plan{{}, 1, false}, Plan{{}, 4, false, 2}, Plan{{}, 4, true, 2}}) {
         s = small(Technique::automatic);
         s.exponents = {0, 2};
         s.plan = plan;

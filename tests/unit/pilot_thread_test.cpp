@@ -93,6 +93,33 @@ TEST(Plan, TracesAsManyLightSubpathsAsItSays) {
     }
 }
 
+// A point lamp is seen from a place or not, however often next event asks: twice the rays from the
+// first surface, as many from all others.
+TEST(Plan, SamplesDirectLightAsOftenAsItSays) {
+    SceneDescription d;
+    add(d, make_quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 4), lambert(vec3(0.6f)));
+    add(d, make_icosphere({0, 0.7f, 0}, 0.5f, 2, false, true), lambert(vec3(0.6f)));
+    d.lights = {point_light({1, 2, 1}, 1)};
+    const auto scene = build(d);
+    const auto rays = [&](int direct_samples) {
+        RenderSettings s = automatic();
+        s.plan = Plan{{true, true, false, false}, 0, true, direct_samples};
+        ProgressiveRenderer r(scene, eye(), s, {.threads = 2, .statistics = true});
+        r.render_passes(4);
+        std::pair<std::uint64_t, std::uint64_t> sum{};
+        for (const StrategyStatistics& k : r.statistics().strategies)
+            (k.strategy == Strategy{2, 1} ? sum.first : sum.second) += k.rays;
+        return sum;
+    };
+    const auto once = rays(1), twice = rays(2);
+    EXPECT_GT(once.first, 300u);
+    EXPECT_GT(once.second, 0u);
+    EXPECT_EQ(2 * once.first, twice.first);
+    EXPECT_EQ(once.second, twice.second);
+    EXPECT_THROW(rays(0), std::invalid_argument);
+    EXPECT_THROW(rays(3), std::invalid_argument);
+}
+
 // Eight passes with a subpath for a quarter of the pixels: one for each in the even passes, one in
 // the odd ones, and never the same pixels together.
 TEST(Plan, LetsPixelsTakeTurnsInMeetingLightSubpaths) {
