@@ -26,6 +26,7 @@ struct Contribution {
     Strategy strategy;
     vec3 value{0};
     std::array<double, max_exponents> weights;
+    int sample = 0;  // of a vertex that asks for light more than once, which
 };
 
 struct RayCounts {
@@ -148,8 +149,10 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass, 
         const PathVertex& v = walk.vertex;
         if (v.connectible) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
-                for_each_next_event(e, v.index, walk.numbers.connect, [&](const vec4& u) {
-                    record_own(e, connect_to_light<F>(e, v, u, rays), record);
+                for_each_next_event(e, v.index, walk.numbers.connect, [&](const vec4& u, int i) {
+                    std::optional<Contribution> c = connect_to_light<F>(e, v, u, rays);
+                    if (c) c->sample = i;
+                    record_own(e, c, record);
                 });
             if constexpr (!F.path_tracer) connect_to_subpaths<F>(e, v, light, place, record, rays);
         }

@@ -137,15 +137,15 @@ inline NextEventNumbers next_event_numbers(const vec4& u) {
     return {fine_number(u.x, u.w), {u.y, u.z}};
 }
 
-// Calls `use` with the numbers of every next event from the camera vertex with that number. The
-// second ones lie in the other half of each dimension: the first binary digit is the other one,
-// which keeps what stratifies them.
+// Calls `use` with the numbers of every next event from the camera vertex of that index, and which
+// it is. The second ones lie in the other half of each dimension: the first binary digit is the
+// other one, which keeps what stratifies them.
 template <class Use>
 void for_each_next_event(const Estimator& e, int index, const vec4& u, const Use& use) {
-    use(u);
+    use(u, 0);
     if (e.next_events(index + 1) == 1) return;
     const auto other_half = [](float x) { return x < 0.5f ? x + 0.5f : x - 0.5f; };
-    use(vec4(other_half(u.x), other_half(u.y), other_half(u.z), u.w));
+    use(vec4(other_half(u.x), other_half(u.y), other_half(u.z), u.w), 1);
 }
 
 struct Walk {

@@ -76,7 +76,7 @@ double trimmed_sum(std::vector<double>& values, size_t trimmed) {
     return sum;
 }
 
-// What a plan varies more than the pilot's samples in a block.
+// What a plan varies more than a measured one in a block.
 struct Excess {
     double value = 0;
     bool spike = false;
@@ -130,27 +130,37 @@ double variance_in(const BlockSums& sums, int plan, int g, const Plan& p, double
     return square * (split ? 1 + sums.correlation() : 1) - mean;
 }
 
+// What is measured, as it is: a plan of the pilot's samples, with or without the second ones of
+// direct light. `kind` as in PixelVariances.
+struct Measured {
+    int kind = 0;
+    int plan = 0;
+    Moments shares;    // of what moments say
+    double error = 0;  // the relative squared error per sample, splats included
+};
+
 // Over what moments say, the variance of what a camera sample gathers is lower by stratification
-// and higher because what one subpath finds comes together: measured on the pilot's samples, by
-// group.
-// Light that a longer walk hits by chance stays where it is: of that a plan has more where others
-// would have found it better, and it comes in spikes that nothing smooths.
-Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c) {
+// and higher because what one subpath finds comes together: by group. Light that a longer walk hits
+// by chance stays where it is: of that a plan has more where others would have found it better, and
+// it comes in spikes that nothing smooths.
+Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c,
+                        const Measured& m) {
     Moments measured{}, expected{}, shares;
     double together = 0, apart = 0;
-    for (const PixelVariances& v : r.pixels) {
+    for (const PixelVariances& pixel : r.pixels) {
+        const GatheredVariances& v = pixel.of[m.kind];
         for (int g = 0; g < groups; ++g) {
-            measured[g] += v.groups[g] * relative.scale[v.block];
-            apart += v.groups[g] * relative.scale[v.block];
+            measured[g] += v.groups[g] * relative.scale[pixel.block];
+            apart += v.groups[g] * relative.scale[pixel.block];
         }
-        together += v.all * relative.scale[v.block];
+        together += v.all * relative.scale[pixel.block];
     }
     for (size_t b = 0; b < r.blocks.size(); ++b)
         for (int g = 0; g < groups; ++g)
-            expected[g] += relative.scale[b] / relative.per_sample[b] *
-                           variance_in(r.blocks[b], c.sampled(), g, c.plans[c.sampled()],
-                                       relative.per_sample[b]) /
-                           pilot_passes;
+            expected[g] +=
+                relative.scale[b] / relative.per_sample[b] *
+                variance_in(r.blocks[b], m.plan, g, c.plans[m.plan], relative.per_sample[b]) /
+                pilot_passes;
     shares.fill(1);
     for (int g = 0; g < groups; ++g) {
         if (Family(g / lengths) == Family::light_tracing || !(expected[g] > 0)) continue;
@@ -161,20 +171,33 @@ Moments measured_shares(const PilotSums& r, const Relative& relative, const Cand
     return shares;
 }
 
-// What a plan varies more than the pilot's samples, over all blocks.
-double excess_of(const PilotSums& r, const Relative& relative, const Moments& shares,
-                 const Candidates& candidates, int plan) {
-    const bool lacks_a_family =
-        candidates.plans[plan].families != candidates.plans[candidates.sampled()].families;
+Measured measure(const PilotSums& r, const Relative& relative, const Candidates& c, int kind) {
+    Measured m{kind, kind == 0 ? c.full() : c.sampled(), {}, 0};
+    m.shares = measured_shares(r, relative, c, m);
+    std::vector<double> squares;
+    for (const PixelVariances& v : r.pixels)
+        squares.push_back(v.of[kind].all * relative.scale[v.block]);
+    m.error = pilot_passes * trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
+    for (size_t b = 0; b < r.blocks.size(); ++b)
+        for (int k = 0; k < lengths; ++k)
+            m.error += r.blocks[b].second[group_of(Family::light_tracing, k + 2)][m.plan] *
+                       relative.scale[b];
+    return m;
+}
+
+// What a plan varies more than the measured one, over all blocks.
+double excess_of(const PilotSums& r, const Relative& relative, const Candidates& c,
+                 const Measured& m, int plan) {
+    const bool lacks_a_family = c.plans[plan].families != c.plans[m.plan].families;
     std::vector<Excess> excess;
     for (size_t b = 0; b < r.blocks.size(); ++b) {
         const BlockSums& sums = r.blocks[b];
         const auto variance = [&](int i, int g) {
-            return variance_in(sums, i, g, candidates.plans[i], relative.per_sample[b]);
+            return variance_in(sums, i, g, c.plans[i], relative.per_sample[b]);
         };
         double sum = 0, squares = 0;
         for (int g = 0; g < groups; ++g) {
-            sum += shares[g] * (variance(plan, g) - variance(candidates.sampled(), g));
+            sum += m.shares[g] * (variance(plan, g) - variance(m.plan, g));
             squares += sums.second[g][plan];
         }
         excess.push_back({relative.scale[b] / relative.per_sample[b] * sum,
@@ -186,23 +209,14 @@ double excess_of(const PilotSums& r, const Relative& relative, const Moments& sh
 // The relative squared error of each plan, per sample of a pixel; the last element is that of the
 // full one. What the pilot's own camera samples vary is measured as it is, all that comes together
 // included; what another plan has more follows from moments.
-std::vector<double> relative_errors(const PilotSums& r, const Grid& grid,
-                                    const Candidates& candidates) {
+std::vector<double> relative_errors(const PilotSums& r, const Grid& grid, const Candidates& c) {
     const Relative relative = relative_scales(r, grid);
-    const Moments shares = measured_shares(r, relative, candidates);
-    std::vector<double> squares;
-    for (const PixelVariances& v : r.pixels) squares.push_back(v.all * relative.scale[v.block]);
-    double measured = trimmed_sum(squares, size_t(trimmed_share * double(squares.size())));
-    measured *= pilot_passes;
-    const int sampled = candidates.sampled();
-    for (size_t b = 0; b < r.blocks.size(); ++b)
-        for (int k = 0; k < lengths; ++k)
-            measured += r.blocks[b].second[group_of(Family::light_tracing, k + 2)][sampled] *
-                        relative.scale[b];
+    const std::array<Measured, 2> measured{measure(r, relative, c, 0), measure(r, relative, c, 1)};
     std::vector<double> errors;
-    for (int i = 0; i <= candidates.full(); ++i) {
-        const double more = excess_of(r, relative, shares, candidates, i);
-        errors.push_back(std::max(least_error * measured, measured + more) / pilot_samples);
+    for (int i = 0; i <= c.full(); ++i) {
+        const Measured& m = measured[c.plans[i].direct_samples - 1];
+        const double more = excess_of(r, relative, c, m, i);
+        errors.push_back(std::max(least_error * m.error, m.error + more) / pilot_samples);
     }
     return errors;
 }

@@ -52,12 +52,15 @@ SampleShares sample_shares(const Candidates& c, bool direct_light) {
     return shares;
 }
 
+using Gathered = std::array<Moments, 2>;
+
 class PilotRecord {
   public:
     PilotRecord(const Grid& grid, const Candidates& candidates, std::vector<BlockSums>& blocks)
         : grid_(grid),
           direct_(sample_shares(candidates, true)),
           indirect_(sample_shares(candidates, false)),
+          full_(size_t(candidates.full())),
           blocks_(blocks) {}
 
     void begin(int x, int y) {
@@ -65,26 +68,32 @@ class PilotRecord {
         gathered_ = {};
         direct_found_ = 0;
     }
-    // The sample's weighted luminances.
-    const Moments& gathered() const { return gathered_; }
+    // The sample's weighted luminances, as PixelVariances.
+    const Gathered& gathered() const { return gathered_; }
 
     bool wants(const Strategy&) const { return true; }
     void contribution(const Contribution& c) {
         BlockSums& b = blocks_[block_];
-        const double energy = add(b, c);
-        gathered_[group_of(family_of(c.strategy), c.strategy.edges())] += energy;
+        const Energies found = add(b, c);
+        const int g = group_of(family_of(c.strategy), c.strategy.edges());
+        if (c.sample == 0) gathered_[0][g] += found.full;
+        gathered_[1][g] += found.sampled;
         if (c.strategy != Strategy{2, 1}) return;
-        b.direct_square += sqr(energy) / 2;
-        b.direct_product += energy * direct_found_;
-        direct_found_ = energy;
+        b.direct_square += sqr(found.sampled) / 2;
+        b.direct_product += found.sampled * direct_found_;
+        direct_found_ = found.sampled;
     }
     void splat(int x, int y, const Contribution& c) { add(blocks_[grid_.block(x, y)], c); }
 
   private:
-    // Returns the weighted luminance.
-    double add(BlockSums& b, const Contribution& c) const {
+    // Weighted luminances: as the pilot has it, and as the full plan would without second samples.
+    struct Energies {
+        double sampled = 0, full = 0;
+    };
+
+    Energies add(BlockSums& b, const Contribution& c) const {
         const double value = luminance(c.value), weight = c.weights[all];
-        if (!(value > 0) || !(weight > 0) || !std::isfinite(value)) return 0;
+        if (!(value > 0) || !(weight > 0) || !std::isfinite(value)) return {};
         const Densities d = densities(c);
         const SampleShares& shares = c.strategy.edges() == 2 ? direct_ : indirect_;
         const double energy = weight * value;
@@ -106,14 +115,15 @@ class PilotRecord {
         }
         for (size_t i = 0; i < scale.size(); ++i) b.largest[i] = std::max(b.largest[i], squares[i]);
         b.image += energy;
-        return energy;
+        return {energy, value * scale[full_]};
     }
 
     const Grid& grid_;
     const SampleShares direct_, indirect_;
+    const size_t full_;
     std::vector<BlockSums>& blocks_;
     int block_ = 0;
-    Moments gathered_{};
+    Gathered gathered_{};
     double direct_found_ = 0;  // by the sample's last next event from the first surface
 };
 
@@ -122,14 +132,14 @@ void add_to(std::array<double, n>& to, const std::array<double, n>& from) {
     for (size_t i = 0; i < n; ++i) to[i] += from[i];
 }
 
-// `halves`: sums over the even and the odd passes.
-PixelVariances variances(const std::array<Moments, 2>& halves, int block) {
+// From sums over the even and the odd passes.
+GatheredVariances variances(const Moments& even, const Moments& odd) {
     // The means of two halves differ by four times the variance of the mean of all.
     const auto of = [](double difference) { return sqr(difference) / pilot_passes; };
-    PixelVariances v{block};
+    GatheredVariances v;
     double all = 0;
     for (int g = 0; g < groups; ++g) {
-        const double difference = halves[0][g] - halves[1][g];
+        const double difference = even[g] - odd[g];
         all += difference;
         v.groups[g] = of(difference);
     }
@@ -147,7 +157,7 @@ PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, in
     };
     const int x = e.crop.x0 + place(column, std::uint32_t(jitter), pilot_columns, e.crop.width());
     const int y = e.crop.y0 + place(row, std::uint32_t(jitter >> 32), pilot_rows, e.crop.height());
-    std::array<Moments, 2> halves{};
+    std::array<Gathered, 2> halves{};
     // The samples of a half share their light subpaths, as those of neighbouring pixels do in a
     // render; the halves share nothing.
     static_assert(pilot_passes == 2 * group_pixels);
@@ -163,10 +173,12 @@ PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, in
         for (int i = 0; i < group_pixels; ++i) {
             record.begin(x, y);
             trace_camera_subpath(e, x, y, first + 2 * i, i, light, record, result.camera);
-            add_to(halves[half], record.gathered());
+            for (int split = 0; split < 2; ++split)
+                add_to(halves[half][split], record.gathered()[split]);
         }
     }
-    return variances(halves, grid.block(x, y));
+    return {grid.block(x, y),
+            {variances(halves[0][0], halves[1][0]), variances(halves[0][1], halves[1][1])}};
 }
 
 PilotSums sample_chunk(const Estimator& e, const Grid& grid, const Candidates& candidates,

@@ -24,7 +24,7 @@ inline constexpr int pilot_samples = pilot_pixels * pilot_passes;
 inline constexpr size_t most_candidates = 20;
 struct Candidates {
     // Behind them the full one, and what the pilot samples: the same with direct light sampled
-    // twice, which tells what two samples have in common.
+    // twice. Without the second samples it is the full one.
     std::array<Plan, most_candidates + 2> plans;
     int count = 0;
     bool splats_direct = true;  // of the plans with light tracing
@@ -74,10 +74,14 @@ struct BlockSums {
 };
 
 // Variances per sample of what the pilot's camera samples gather, from the halves of the passes.
-struct PixelVariances {
-    int block = 0;
+struct GatheredVariances {
     double all = 0;
     Moments groups{};
+};
+// Of the full plan, and of the one with direct light sampled twice.
+struct PixelVariances {
+    int block = 0;
+    std::array<GatheredVariances, 2> of;
 };
 
 struct PilotSums {

@@ -303,7 +303,7 @@ DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, con
         if (reached != Reached::surface || camera.now.index > e.max_bounces) return sample;
         if (camera.now.vertex.connectible) {
             for_each_next_event(e, camera.now.index, camera.now.numbers.connect,
-                                [&](const vec4& u) { visit_next_event(e, camera, u, visit); });
+                                [&](const vec4& u, int) { visit_next_event(e, camera, u, visit); });
             visit_connections(e, sample, visit);
         }
         if (!scatter_on_record(camera)) return sample;
