@@ -3,7 +3,8 @@
 // render it, a *plan*, would cost and how noisy it would be; the plan with the smallest error x
 // time is taken. A plan is a choice of families and of light subpaths per pixel: none, so that what
 // is left is a path tracer; light tracing alone, from a quarter of a subpath to two per pixel;
-// connections too, for a quarter of the camera samples or more.
+// connections too, for a quarter of the camera samples or more. With each of them direct light may
+// be sampled twice from the first surface.
 //
 // Of every path that the pilot finds, the balance heuristic's densities are known for all
 // strategies, hence also how the strategies of another plan would have shared it: the second moment
@@ -12,7 +13,8 @@
 // the formula below is that of the balance heuristic, Veach 1997, eq. 9.15). A path that one plan
 // finds often and another once in a million is weighed right although no sample of the second would
 // have met it. What plans have in common, the variance of the full one, is measured from pairs of
-// samples of the same pixel, correlations included.
+// samples of the same pixel, correlations included: with the pilot's second samples of direct light
+// and without them.
 //
 // Costs count rays, each kind at its measured price (pilot.cpp); seconds decide nothing. The
 // decision is a function of scene, camera and settings, but for seed and exponents, so it is the

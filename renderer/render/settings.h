@@ -19,7 +19,7 @@ struct Plan {
     int light_quarters = 4;  // light subpaths for four pixels: 0, 1, 2, 4 or 8
     // Whether light tracing makes paths of two edges too, which next event always finds.
     bool splats_direct = true;
-    int direct_samples = 1;  // as in Estimator
+    int direct_samples = 1;  // from the first surface, as in Estimator
     bool operator==(const Plan&) const = default;
 };
 
