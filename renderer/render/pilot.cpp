@@ -125,9 +125,9 @@ double variance_in(const BlockSums& sums, int plan, int g, const Plan& p, double
     // Every pixel's samples take turns in meeting a light subpath: chance decides about a
     // connection's value, not whether there is one.
     if (family == Family::connection) return square - mean / connection_share(p);
-    // Samples of direct light from one surface have the surface in common.
-    const bool split = g == group_of(Family::next_event, 2) && p.direct_samples > 1;
-    return square * (split ? 1 + sums.correlation() : 1) - mean;
+    // Samples of direct light from one surface have it in common: measured_shares() knows.
+    if (g == group_of(Family::next_event, 2)) return square - mean / p.direct_samples;
+    return square - mean;
 }
 
 // What is measured, as it is: a plan of the pilot's samples, with or without the second ones of
@@ -140,9 +140,9 @@ struct Measured {
 };
 
 // Over what moments say, the variance of what a camera sample gathers is lower by stratification
-// and higher because what one subpath finds comes together: by group. Light that a longer walk hits
-// by chance stays where it is: of that a plan has more where others would have found it better, and
-// it comes in spikes that nothing smooths.
+// and higher because what one subpath, or next event from one surface, finds comes together: by
+// group. Light that a longer walk hits by chance stays where it is: of that a plan has more where
+// others would have found it better, and it comes in spikes that nothing smooths.
 Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c,
                         const Measured& m) {
     Moments measured{}, expected{}, shares;

@@ -66,22 +66,16 @@ class PilotRecord {
     void begin(int x, int y) {
         block_ = grid_.block(x, y);
         gathered_ = {};
-        direct_found_ = 0;
     }
     // The sample's weighted luminances, as PixelVariances.
     const Gathered& gathered() const { return gathered_; }
 
     bool wants(const Strategy&) const { return true; }
     void contribution(const Contribution& c) {
-        BlockSums& b = blocks_[block_];
-        const Energies found = add(b, c);
+        const Energies found = add(blocks_[block_], c);
         const int g = group_of(family_of(c.strategy), c.strategy.edges());
         if (c.sample == 0) gathered_[0][g] += found.full;
         gathered_[1][g] += found.sampled;
-        if (c.strategy != Strategy{2, 1}) return;
-        b.direct_square += sqr(found.sampled) / 2;
-        b.direct_product += found.sampled * direct_found_;
-        direct_found_ = found.sampled;
     }
     void splat(int x, int y, const Contribution& c) { add(blocks_[grid_.block(x, y)], c); }
 
@@ -124,7 +118,6 @@ class PilotRecord {
     std::vector<BlockSums>& blocks_;
     int block_ = 0;
     Gathered gathered_{};
-    double direct_found_ = 0;  // by the sample's last next event from the first surface
 };
 
 template <size_t n>
@@ -225,8 +218,6 @@ PilotSums added(std::vector<PilotSums>& parts) {
         const PilotSums& p = parts[i];
         for (size_t b = 0; b < all.blocks.size(); ++b) {
             all.blocks[b].image += p.blocks[b].image;
-            all.blocks[b].direct_square += p.blocks[b].direct_square;
-            all.blocks[b].direct_product += p.blocks[b].direct_product;
             for (size_t i = 0; i < all.blocks[b].largest.size(); ++i)
                 all.blocks[b].largest[i] =
                     std::max(all.blocks[b].largest[i], p.blocks[b].largest[i]);

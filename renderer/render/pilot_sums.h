@@ -66,11 +66,6 @@ struct BlockSums {
     // How a plan's strategies would share it, and their second moments.
     std::array<ByPlan, groups> first{}, second{};
     ByPlan largest{};  // of one contribution, to all second moments together
-    // Of the weighted luminances of direct light that next event finds from one surface: the mean
-    // of the squares, and the product of two.
-    double direct_square = 0, direct_product = 0;
-    // What two samples from one surface have in common.
-    double correlation() const { return direct_square > 0 ? direct_product / direct_square : 0; }
 };
 
 // Variances per sample of what the pilot's camera samples gather, from the halves of the passes.
