@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "middle_json.h"
 #include "plan_json.h"
 #include "progress.h"
@@ -39,13 +41,17 @@ std::string image_in_words(const Json& row) {
 }
 
 void print_plan(const Json& plan) {
-    fmt::print("  auto: {}\n    {:<76} {:>6} {:>9} {:>8}\n", plan["what"].get<std::string>(),
-               "relative to plain bdpt, expected", "cost", "error", "time");
+    const std::string heading = "relative to plain bdpt, expected";
+    size_t width = heading.size();
+    for (const Json& f : plan["weighed_up"])
+        width = std::max(width, f["what"].get_ref<const std::string&>().size());
+    fmt::print("  auto: {}\n    {:<{}} {:>6} {:>9} {:>8}\n", plan["what"].get<std::string>(),
+               heading, width, "cost", "error", "time");
     const auto figure = [](const Json& x) {
         return x.is_null() ? std::string("-") : fmt::format("{:.3g}", x.get<double>());
     };
     for (const Json& f : plan["weighed_up"])
-        fmt::print("    {:<76} {:>6} {:>9} {:>8}\n", f["what"].get<std::string>(),
+        fmt::print("    {:<{}} {:>6} {:>9} {:>8}\n", f["what"].get<std::string>(), width,
                    figure(f["cost"]), figure(f["error"]), figure(f["time"]));
 }
 

@@ -334,7 +334,7 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
 
 std::string describe(const Plan& plan) {
     const Families& f = plan.families;
-    const char* twice = plan.direct_samples > 1 ? ", next event twice at the first surface" : "";
+    const char* twice = plan.direct_samples > 1 ? ", direct light twice" : "";
     if (!f.needs_light_subpaths()) return fmt::format("path tracing, no light subpaths{}", twice);
     std::string what = "all families";
     if (!f.connection) what = "path and light tracing, no connections";
