@@ -131,9 +131,8 @@ double variance_in(const BlockSums& sums, int plan, int g, const Plan& p, double
 }
 
 // What is measured, as it is: a plan of the pilot's samples, with or without the second ones of
-// direct light. `kind` as in PixelVariances.
+// direct light.
 struct Measured {
-    int kind = 0;
     int plan = 0;
     Moments shares;    // of what moments say
     double error = 0;  // the relative squared error per sample, splats included
@@ -143,12 +142,12 @@ struct Measured {
 // and higher because what one subpath, or next event from one surface, finds comes together: by
 // group. Light that a longer walk hits by chance stays where it is: of that a plan has more where
 // others would have found it better, and it comes in spikes that nothing smooths.
-Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c,
-                        const Measured& m) {
+Moments measured_shares(const PilotSums& r, const Relative& relative, const Candidates& c, int kind,
+                        int plan) {
     Moments measured{}, expected{}, shares;
     double together = 0, apart = 0;
     for (const PixelVariances& pixel : r.pixels) {
-        const GatheredVariances& v = pixel.of[m.kind];
+        const GatheredVariances& v = pixel.of[kind];
         for (int g = 0; g < groups; ++g) {
             measured[g] += v.groups[g] * relative.scale[pixel.block];
             apart += v.groups[g] * relative.scale[pixel.block];
@@ -159,7 +158,7 @@ Moments measured_shares(const PilotSums& r, const Relative& relative, const Cand
         for (int g = 0; g < groups; ++g)
             expected[g] +=
                 relative.scale[b] / relative.per_sample[b] *
-                variance_in(r.blocks[b], m.plan, g, c.plans[m.plan], relative.per_sample[b]) /
+                variance_in(r.blocks[b], plan, g, c.plans[plan], relative.per_sample[b]) /
                 pilot_passes;
     shares.fill(1);
     for (int g = 0; g < groups; ++g) {
@@ -171,9 +170,10 @@ Moments measured_shares(const PilotSums& r, const Relative& relative, const Cand
     return shares;
 }
 
+// `kind` as in PixelVariances.
 Measured measure(const PilotSums& r, const Relative& relative, const Candidates& c, int kind) {
-    Measured m{kind, kind == 0 ? c.full() : c.sampled(), {}, 0};
-    m.shares = measured_shares(r, relative, c, m);
+    const int plan = kind == 0 ? c.full() : c.sampled();
+    Measured m{plan, measured_shares(r, relative, c, kind, plan), 0};
     std::vector<double> squares;
     for (const PixelVariances& v : r.pixels)
         squares.push_back(v.of[kind].all * relative.scale[v.block]);
