@@ -27,6 +27,8 @@ ALLOWED = {
     ("renderer/math/student.cpp", "1e-300, 1 - 1e-16"): "a probability kept inside of (0, 1)",
     ("renderer/math/warp.h", "std::max(1e-12f, 1 -"): "squared cosine: a sample exactly on the "
                                                       "horizon would have density 0",
+    ("renderer/math/warp.h", "3.59542907e-05f"): "coefficients of a sine",
+    ("renderer/math/warp.h", "3.52979722e-06f"): "coefficients of a cosine",
     ("renderer/shading/albedo_table.cpp", "1e-3f, m / float(cosines"): "a cosine: the table's row "
                                                                        "at the horizon",
     ("renderer/shading/bsdf.cpp", "std::max(1e-4f, 1 - b.coat_f0"): "an albedo: guards 0 / 0 of a "
@@ -41,6 +43,7 @@ ALLOWED = {
     ("renderer/scene/camera.cpp", "std::max(1e-3f, glm::dot"): "default focus of a lens that looks "
                                                                "away from a scene of radius 1",
     ("renderer/scene/camera.cpp", "0.99999 ?"): "cosine: a view straight up has no horizon",
+    ("renderer/scene/lamps.cpp", "skew = 1e-3f"): "relative to the lamp's diagonal",
     ("renderer/scene/light.cpp", "1e-9f * ramp"): "relative to the ramp of the spot",
     ("renderer/render/scene_edits.cpp", "widest_inner = 0.999f"): "a ratio of angles",
     ("renderer/render/scene_edits.h", "narrowest_cone = 1e-3f"): "an angle in radians",

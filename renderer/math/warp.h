@@ -8,14 +8,21 @@
 
 namespace midway {
 
-// Uniform on the unit disc, area-preserving and continuous (Shirley & Chiu 1997).
+// Uniform on the unit disc, area-preserving and continuous (Shirley & Chiu 1997). Half of all
+// points lie in its wide sectors, by chance: choices in place of branches, which nobody could
+// foresee. Sine and cosine of up to an eighth of a turn are polynomials through the Chebyshev
+// points in the square of the ratio, within 2.5e-9.
 inline vec2 square_to_disc(const vec2& u) {
     const float a = 2 * u.x - 1, b = 2 * u.y - 1;
-    if (a == 0 && b == 0) return vec2(0);
     const bool wide = std::abs(a) > std::abs(b);
-    const float r = wide ? a : b;
-    const float phi = wide ? (pi / 4) * (b / a) : (pi / 2) - (pi / 4) * (a / b);
-    return {r * std::cos(phi), r * std::sin(phi)};
+    const float r = wide ? a : b, ratio = r != 0 ? (wide ? b : a) / r : 0, y = ratio * ratio;
+    const float sine =
+        ratio * (0.785398161f + y * (-0.0807454347f + y * (0.0024900068f - y * 3.59542907e-05f)));
+    const float cosine =
+        1 +
+        y * (-0.308425135f + y * (0.0158543252f + y * (-0.000325938586f + y * 3.52979722e-06f)));
+    const float x = wide ? cosine : sine, z = wide ? sine : cosine;
+    return {r * x, r * z};
 }
 
 // Cosine-weighted about +z (Malley's method); z is kept above zero so that the density is too.

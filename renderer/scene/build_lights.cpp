@@ -91,17 +91,18 @@ void add_area_lights(Scene& s) {
     }
 }
 
-// Of the area lights, which come first.
-LampTriangles make_lamps(const Scene& s, const Scene* previous) {
-    if (previous && previous->geometry == s.geometry && previous->first_light == s.first_light)
-        return previous->lamps;
-    std::vector<LampTriangle> lamps;
-    lamps.reserve(s.lights.size());
-    for (const Light& l : s.lights) {
-        const Object& o = s.geometry->objects[l.object];
-        lamps.push_back({flat_triangle(o, l.triangle), o.material});
+// Area lights, and the triangles that they are.
+void find_lamps(Scene& s, const Scene* previous) {
+    add_area_lights(s);
+    const bool share =
+        previous && previous->geometry == s.geometry && previous->first_light == s.first_light;
+    s.lamps = share ? previous->lamps : make_lamps(*s.geometry, s.lights);
+    for (size_t i = 0; i < s.lamps->size(); ++i) {
+        if ((*s.lamps)[i].partner <= 0) continue;
+        // Both lie about the centre of their parallelogram.
+        const vec3 corners = (*s.lamps)[i].shape.v0 + (*s.lamps)[i + 1].shape.v0;
+        s.lights[i].position = s.lights[i + 1].position = 0.5f * corners;
     }
-    return std::make_shared<const std::vector<LampTriangle>>(std::move(lamps));
 }
 
 Light make_punctual(const PunctualLight& d, const Scene& s, float lamp_strength) {
@@ -140,14 +141,21 @@ void add_sky(Scene& s, const SkyDescription& d, const Sky* previous, bool needle
     s.lights.push_back(l);
 }
 
-LightBounds bounds_of(const Scene& s, const Light& l) {
+LightBounds bounds_of(const Scene& s, int light) {
+    const Light& l = s.lights[light];
     if (l.kind == LightKind::point) return {l.position, l.position};
     if (l.kind == LightKind::spot) return {l.position, l.position, l.direction, false};
     const Object& o = s.geometry->objects[l.object];
     const uvec3& t = o.triangles[l.triangle];
     const vec3 &a = o.positions[t.x], &b = o.positions[t.y], &c = o.positions[t.z];
-    return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
-            triangle_shape(o, l.triangle).normal, l.two_sided};
+    LightBounds bounds{glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
+                       triangle_shape(o, l.triangle).normal, l.two_sided};
+    if ((*s.lamps)[light].partner > 0) {
+        const vec3 corner = (*s.lamps)[light + 1].shape.v0;
+        bounds.lower = glm::min(bounds.lower, corner);
+        bounds.upper = glm::max(bounds.upper, corner);
+    }
+    return bounds;
 }
 
 // Whether the same lights shine at the same places, however strongly: then they reach the same
@@ -160,6 +168,12 @@ bool same_places(const Scene& a, const Scene& b) {
     };
     return a.geometry == b.geometry &&
            std::equal(a.lights.begin(), a.lights.end(), b.lights.begin(), b.lights.end(), same);
+}
+
+// The first triangle of a parallelogram is picked for both.
+void join_parallelograms(const Scene& s, std::vector<double>& weights) {
+    for (size_t i = 0; i < s.lamps->size(); ++i)
+        if ((*s.lamps)[i].partner > 0) weights[i] += std::exchange(weights[i + 1], 0.0);
 }
 
 // `weights`: of next event, for each light. `previous`: of the same shape, or null.
@@ -180,7 +194,7 @@ void make_light_tree(Scene& s, std::vector<double> weights, const Scene* previou
     }
     std::vector<LightBounds> bounds(s.lights.size());
     for (size_t i = 0; i < bounds.size(); ++i)
-        if (weights[i] > 0) bounds[i] = bounds_of(s, s.lights[i]);
+        if (weights[i] > 0) bounds[i] = bounds_of(s, static_cast<int>(i));
     s.light_tree.build(bounds, weights);
 }
 
@@ -212,7 +226,14 @@ void make_light_tables(Scene& s, const Scene* previous, bool black_too) {
     for (const double p : power)
         next_event.push_back(p > 0 ? (1 - even_share) * p / picked + even_share / double(shining)
                                    : 0.0);
+    join_parallelograms(s, power);
+    join_parallelograms(s, next_event);
     s.emission_pick = make_distribution(power);
+    for (size_t i = 0; i < s.lights.size(); ++i) {
+        const auto light = static_cast<int>(i);
+        s.lights[i].emission_pick = share_of_lamp(*s.lamps, light) *
+                                    s.emission_pick.probability(first_of_lamp(*s.lamps, light));
+    }
     make_light_tree(s, std::move(next_event), previous);
 }
 
@@ -220,7 +241,7 @@ void make_light_tables(Scene& s, const Scene* previous, bool black_too) {
 double same_lamp_probability(const Scene& s) {
     double sum = 0, lamp = 0;
     for (size_t i = 0; i < s.lights.size(); ++i) {
-        lamp += s.emission_pick.probability(static_cast<int>(i));
+        lamp += s.lights[i].emission_pick;
         const bool goes_on = s.lights[i].kind == LightKind::area && i + 1 < s.lights.size() &&
                              s.lights[i + 1].object == s.lights[i].object;
         if (goes_on) continue;
@@ -244,8 +265,7 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
     for (Material& m : s.materials) m.emission *= d.lamp_strength;
     s.lights.reserve(count_lights(s, d));
     find_emission_means(s, previous);
-    add_area_lights(s);
-    s.lamps = make_lamps(s, previous);
+    find_lamps(s, previous);
     for (const PunctualLight& l : d.lights)
         s.lights.push_back(make_punctual(l, s, d.lamp_strength));
     const Sky* const previous_sky = previous && previous->sky ? &*previous->sky : nullptr;
@@ -264,6 +284,9 @@ void build_lights(Scene& s, const SceneDescription& d, const BuildOptions& optio
     } else if (!options.needless.lights) {
         find_reach(s);
     }
+    for (size_t i = 0; i < s.lamps->size(); ++i)
+        if ((*s.lamps)[i].partner > 0)
+            s.lights[i].reaches = s.lights[i + 1].reaches |= s.lights[i].reaches;
     make_light_tables(s, same && !black_too ? previous : nullptr, black_too);
     if (s.emission_pick.total > 0) s.same_lamp = same_lamp_probability(s);
 }

@@ -9,7 +9,7 @@
 //   pdf_origin           per area, times the pick        per solid angle, times the pick
 //   pdf_leave            per solid angle                 per area of the disc
 //   pdf_next_event       as pdf_origin, but with the probability that next event picks the light
-//                        with, which depends on the place that asks (light_tree.h); a triangle
+//                        with, which depends on the place that asks (light_tree.h); a lamp
 //                        that is near is drawn by its solid angle (math/spherical_triangle.h)
 // A Dirac factor (a point's position, a sun's direction) is left out: the pick alone remains.
 #pragma once
@@ -26,15 +26,16 @@ enum class LightKind : std::uint8_t { point, spot, directional, area, sky };
 
 struct Light {
     LightKind kind = LightKind::point;
-    vec3 position{0};   // point, spot; area: its centroid
+    vec3 position{0};   // point, spot; area: its centroid, of both triangles of a parallelogram
     vec3 direction{0};  // spot, directional: where the light travels, unit
     vec3 emission{0};   // intensity (scene units), irradiance, or unused for area and sky
     float cos_inner = 1, cos_outer = 0;  // spot
     int object = -1, triangle = -1;      // area
     float area = 0;
     bool two_sided = false;
-    bool reaches = true;  // false: it sends no light to any surface (reach.h)
-    double power = 0;     // mean of RGB
+    bool reaches = true;       // false: it sends no light to any surface (reach.h)
+    double power = 0;          // mean of RGB
+    double emission_pick = 0;  // probability that a light subpath begins here
 };
 
 inline bool is_infinite(LightKind k) { return k == LightKind::directional || k == LightKind::sky; }

@@ -199,6 +199,7 @@ void LightTree::build(const std::vector<LightBounds>& lights, const std::vector<
     LightTreeBuilder b{lights, *this, {}};
     for (size_t i = 0; i < lights.size(); ++i)
         if (weights[i] > 0) b.order.push_back(static_cast<int>(i));
+    only_ = b.order.size() == 1 ? b.order.front() : -1;
     if (b.order.empty()) return;
     b.grow(0, static_cast<int>(b.order.size()), 0, 0);
     reweigh(weights);
@@ -242,7 +243,10 @@ float LightTree::weigh(const Node& n, const vec3& reference, Node::Lane& shares)
 }
 
 int LightTree::sample(const vec3& reference, double u, double& probability) const {
-    if (nodes_.empty()) return -1;
+    if (only_ >= 0 || nodes_.empty()) {
+        probability = 1;
+        return only_;
+    }
     int light = -1;
     double way = 0;
     if (u < share_by_weight) {
@@ -257,6 +261,7 @@ int LightTree::sample(const vec3& reference, double u, double& probability) cons
 
 double LightTree::probability(int light, const vec3& reference) const {
     if (turns_[light] == 0) return 0;
+    if (only_ >= 0) return 1;
     return share_by_weight * by_weight_.probability(light) +
            (1 - share_by_weight) * way_probability(light, reference);
 }

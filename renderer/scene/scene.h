@@ -9,6 +9,7 @@
 
 #include "scene/accel.h"
 #include "scene/camera.h"
+#include "scene/lamps.h"
 #include "scene/light.h"
 #include "scene/light_tree.h"
 #include "scene/scene_description.h"
@@ -19,13 +20,6 @@ namespace midway {
 // leave on the average.
 using EmissionMeans = std::shared_ptr<const std::vector<vec3>>;
 
-// The triangle of an area light and what it is made of, in one line of the cache.
-struct alignas(64) LampTriangle {
-    FlatTriangle shape;
-    int material = 0;
-};
-using LampTriangles = std::shared_ptr<const std::vector<LampTriangle>>;
-
 struct Scene {
     std::shared_ptr<const Geometry> geometry;
     std::shared_ptr<const Accel> accel;
@@ -33,9 +27,9 @@ struct Scene {
     TextureSet textures;
     std::vector<Light> lights;     // area lights first
     LampTriangles lamps;           // of the area lights
-    Distribution1D emission_pick;  // by power
+    Distribution1D emission_pick;  // by power; of a parallelogram, its first triangle for both
     // Next event asks one of the lights at infinity or, entry 0, the tree about all others; by
-    // power, with a share spread evenly over the lights.
+    // power, with a share spread evenly over the lights. The tree too holds first triangles.
     Distribution1D next_event_group;
     std::vector<int> infinite_lights;  // entries 1, 2, ...
     LightTree light_tree;

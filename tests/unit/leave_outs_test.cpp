@@ -228,8 +228,8 @@ TEST(Reach, LightsOutOfReachAreSeenAndNeverPicked) {
     const auto scene = build(room_with_a_sign());
     ASSERT_EQ(2u, scene->unreached_lights);
     for (size_t i = 0; i < scene->lights.size(); ++i) {
-        const auto light = static_cast<int>(i);
-        EXPECT_EQ(scene->lights[i].reaches, scene->emission_pick.probability(light) > 0);
+        const int light = first_of_lamp(*scene->lamps, static_cast<int>(i));
+        EXPECT_EQ(scene->lights[i].reaches, scene->lights[i].emission_pick > 0);
         EXPECT_EQ(scene->lights[i].reaches, scene->light_tree.probability(light, vec3(0)) > 0);
     }
     EXPECT_NE("", why(*scene, "lights"));
@@ -275,11 +275,11 @@ TEST(LeaveOuts, BlackLightsAreNeverPickedAndPickingThemKeepsTheMean) {
         const auto all = build_with(d, {.black_lights = true}, previous);
         ASSERT_EQ(usual->lights.size(), all->lights.size());
         for (size_t i = 0; i < all->lights.size(); ++i) {
-            const auto light = static_cast<int>(i);
+            const int light = first_of_lamp(*all->lamps, static_cast<int>(i));
             const bool shines = all->lights[i].power > 0;
-            EXPECT_EQ(shines, usual->emission_pick.probability(light) > 0);
+            EXPECT_EQ(shines, usual->lights[i].emission_pick > 0);
             EXPECT_EQ(shines, usual->light_tree.probability(light, vec3(0)) > 0);
-            EXPECT_FLOAT_EQ(0.25f, static_cast<float>(all->emission_pick.probability(light)));
+            EXPECT_FLOAT_EQ(0.25f, static_cast<float>(all->lights[i].emission_pick));
             EXPECT_GT(all->light_tree.probability(light, vec3(0)), 0);
         }
         for (const Technique t : {Technique::path, Technique::bdpt}) {
