@@ -58,22 +58,28 @@ std::optional<Contribution> hit_light(const Estimator& e, const Walk& w, Reached
         reached == Reached::sky
             ? sky_hit(*e.scene, w.ray.direction)
             : emitter_hit(*e.scene, *w.point, w.vertex.to_previous, w.previous_position);
-    if (!hit) return found;
-    Contribution& c = found.emplace();
+    if (hit) found = weigh_hit<F>(e, *hit, k, w.throughput, w.vertex.mis.data());
+    return found;
+}
+
+template <Facts F>
+Contribution weigh_hit(const Estimator& e, const EmitterHit& hit, const Strategy& k,
+                       const vec3& throughput, const mis::State* sums) {
+    Contribution c;
     c.strategy = k;
-    c.value = w.throughput * hit->radiance;
+    c.value = throughput * hit.radiance;
     // (1,1) is not a strategy: a lamp seen directly has emitter hits alone.
     // On a path of two edges light tracing is all that the sum of emission's density stands for.
-    mis::EmitterHitPdfs pdfs{hit->pdfs.origin * e.share_of(k.edges()), hit->pdfs.leave,
-                             double(hit->pdfs.next_event) * e.next_events(k.edges()), true};
+    mis::EmitterHitPdfs pdfs{hit.pdfs.origin * e.share_of(k.edges()), hit.pdfs.leave,
+                             double(hit.pdfs.next_event) * e.next_events(k.edges()), true};
     e.at(Work::weights);
     fill_weights<F>(e, c, [&](const auto& h, int i) {
         pdfs.next_event_feasible = e.weighed[i].next_event;
         if (k.s == 2) return 1.0;
-        if constexpr (F.path_tracer) return mis::path_tracer::emitter_hit(h, w.vertex.mis[i], pdfs);
-        return mis::emitter_hit(h, w.vertex.mis[i], pdfs);
+        if constexpr (F.path_tracer) return mis::path_tracer::emitter_hit(h, sums[i], pdfs);
+        return mis::emitter_hit(h, sums[i], pdfs);
     });
-    return found;
+    return c;
 }
 
 template <Facts F>
@@ -190,6 +196,8 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, 
 template decltype(hit_light<no_facts>) hit_light<no_facts>;
 template decltype(hit_light<power2_facts>) hit_light<power2_facts>;
 template decltype(hit_light<path_tracer_facts>) hit_light<path_tracer_facts>;
+template decltype(weigh_hit<power2_facts>) weigh_hit<power2_facts>;
+template decltype(weigh_hit<path_tracer_facts>) weigh_hit<path_tracer_facts>;
 template decltype(connect_to_light<no_facts>) connect_to_light<no_facts>;
 template decltype(connect_to_light<power2_facts>) connect_to_light<power2_facts>;
 template decltype(connect_to_light<path_tracer_facts>) connect_to_light<path_tracer_facts>;

@@ -64,6 +64,12 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& lig
 template <Facts F = no_facts>
 std::optional<Contribution> hit_light(const Estimator& e, const Walk& walk, Reached reached);
 
+// What a light contributes that strategy k has hit, for the sums of the last vertex, one for each
+// exponent.
+template <Facts F = no_facts>
+Contribution weigh_hit(const Estimator& e, const EmitterHit& hit, const Strategy& k,
+                       const vec3& throughput, const mis::State* sums);
+
 // Walks the light subpath; its connectible vertices are splatted and kept, where families ask for
 // it.
 template <Facts F = no_facts, class Record>

@@ -14,12 +14,6 @@ SampleKey make_key(const Estimator& e, Stream stream, std::uint64_t pass, std::u
     return make_sample_key(mix64(half + place), index, e.sampler);
 }
 
-// Of a walk's edges, all different; who tosses it hashes it.
-std::uint64_t coin(const Walk& w) {
-    return w.key.key + w.key.reversed * 0xbf58476d1ce4e5b9ull +
-           std::uint64_t(w.index) * 0x94d049bb133111ebull;
-}
-
 // A permutation of the pixels that leaves neighbours together, so that the subpaths that they share
 // come from different strata of the lights: where the pixels from `first` on go. The groups, and
 // each one in itself, are turned by chance: every pixel has exactly the same chance of each
@@ -42,15 +36,6 @@ PermutedGroup permute_group(std::uint64_t pixel, std::uint64_t pixels, std::uint
     if (group < groups)
         p.to = group_pixels * ((permute_index(group, groups, key) + mix64(key) % groups) % groups);
     return p;
-}
-
-// The strategy that the previous vertex's vcm stands for. On the camera side vertex i
-// stands for the connection of its i predecessors to a longer light subpath (light tracing for i =
-// 1); on the light side for i light vertices (next event for i = 1) and the camera's, three or
-// more: the edge is followed by another.
-Strategy previous_strategy(const Walk& w) {
-    const int i = w.index - 1;
-    return w.transport == Transport::radiance ? Strategy{i, 2} : Strategy{3, i};
 }
 
 // Sums at vertex 1: eq. (22)-(25), (34), (37), (38).
@@ -81,7 +66,7 @@ void start_sums(const Estimator& e, Walk& w, double cos_in, double distance2) {
 template <Facts F>
 void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
     mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, 1};
-    const Strategy previous = previous_strategy(w);
+    const Strategy previous = previous_strategy(w.transport, w.index);
     for_each_exponent<F>(e, [&](const auto& h, int i) {
         if constexpr (F.path_tracer) {
             w.vertex.mis[i] = mis::path_tracer::advance(h, step.pdf_fwd_a, step.delta);
@@ -188,7 +173,7 @@ template <Facts F>
 Reached extend(const Estimator& e, Walk& w) {
     e.at(Work::rays);
     // Where all is opaque nobody looks at the coin.
-    const std::uint64_t toss = e.scene->has_transparency ? coin(w) : 0;
+    const std::uint64_t toss = e.scene->has_transparency ? walk_coin(w.key, w.index) : 0;
     const TriangleHit hit = e.scene->accel->closest(w.ray, {e.scene}, toss);
     e.at(Work::shading);
     build_at(w.point, [&] { return surface_at(*e.scene, hit); });

@@ -140,12 +140,14 @@ inline NextEventNumbers next_event_numbers(const vec4& u) {
 // Calls `use` with the numbers of every next event from the camera vertex of that index, and which
 // it is. The second ones lie in the other half of each dimension: the first binary digit is the
 // other one, which keeps what stratifies them.
-template <class Use>
-void for_each_next_event(const Estimator& e, int index, const vec4& u, const Use& use) {
+template <class Four, class Use>
+void for_each_next_event(const Estimator& e, int index, const Four& u, const Use& use) {
     use(u, 0);
     if (e.next_events(index + 1) == 1) return;
-    const auto other_half = [](float x) { return x < 0.5f ? x + 0.5f : x - 0.5f; };
-    use(vec4(other_half(u.x), other_half(u.y), other_half(u.z), u.w), 1);
+    const auto other_half = [](const auto& x) { return select(x < 0.5f, x + 0.5f, x - 0.5f); };
+    Four second = u;
+    for (int i = 0; i < 3; ++i) second[i] = other_half(u[i]);
+    use(second, 1);
 }
 
 struct Walk {
@@ -172,6 +174,22 @@ struct Walk {
     PathVertex vertex;  // its mis also where the walk left the scene
     VertexNumbers numbers;
 };
+
+// What decides about transparent surfaces on the walk's next edge: of a walk's edges, all different;
+// who tosses it hashes it.
+inline std::uint64_t walk_coin(const SampleKey& key, int index) {
+    return key.key + key.reversed * 0xbf58476d1ce4e5b9ull +
+           std::uint64_t(index) * 0x94d049bb133111ebull;
+}
+
+// The strategy that the previous vertex's vcm stands for, when a walk has reached vertex `index`.
+// On the camera side vertex i stands for the connection of its i predecessors to a longer light
+// subpath (light tracing for i = 1); on the light side for i light vertices (next event for i = 1)
+// and the camera's, three or more: the edge is followed by another.
+inline Strategy previous_strategy(Transport transport, int index) {
+    const int i = index - 1;
+    return transport == Transport::radiance ? Strategy{i, 2} : Strategy{3, i};
+}
 
 SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
 SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);

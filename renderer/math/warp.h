@@ -4,6 +4,7 @@
 #pragma once
 
 #include "math/frame.h"
+#include "math/lanes.h"
 #include "math/vector.h"
 
 namespace midway {
@@ -12,20 +13,33 @@ namespace midway {
 // points lie in its wide sectors, by chance: choices in place of branches, which nobody could
 // foresee. Sine and cosine of up to an eighth of a turn are polynomials through the Chebyshev
 // points in the square of the ratio, within 2.5e-9.
-inline vec2 square_to_disc(const vec2& u) {
-    const float a = 2 * u.x - 1, b = 2 * u.y - 1;
-    const bool wide = std::abs(a) > std::abs(b);
-    const float r = wide ? a : b, ratio = r != 0 ? (wide ? b : a) / r : 0, y = ratio * ratio;
-    const float sine =
+template <class F>
+struct DiscPoint {
+    F x, y;
+};
+template <class F>
+DiscPoint<F> square_to_disc(const F& u, const F& v) {
+    const F a = 2.0f * u - 1.0f, b = 2.0f * v - 1.0f;
+    const auto wide = abs(a) > abs(b);
+    const F r = select(wide, a, b), other = select(wide, b, a);
+    const F ratio = select(r != 0, other / r, F{}), y = ratio * ratio;
+    const F sine =
         ratio * (0.785398161f + y * (-0.0807454347f + y * (0.0024900068f - y * 3.59542907e-05f)));
-    const float cosine =
-        1 +
+    const F cosine =
+        1.0f +
         y * (-0.308425135f + y * (0.0158543252f + y * (-0.000325938586f + y * 3.52979722e-06f)));
-    const float x = wide ? cosine : sine, z = wide ? sine : cosine;
-    return {r * x, r * z};
+    return {r * select(wide, cosine, sine), r * select(wide, sine, cosine)};
+}
+inline vec2 square_to_disc(const vec2& u) {
+    const DiscPoint<float> d = square_to_disc(u.x, u.y);
+    return {d.x, d.y};
 }
 
 // Cosine-weighted about +z (Malley's method); z is kept above zero so that the density is too.
+inline Vec3x8 square_to_cosine_hemisphere(const Float8& u, const Float8& v) {
+    const DiscPoint<Float8> d = square_to_disc(u, v);
+    return {d.x, d.y, sqrt(max(all_lanes(1e-12f), 1.0f - d.x * d.x - d.y * d.y))};
+}
 inline vec3 square_to_cosine_hemisphere(const vec2& u) {
     const vec2 d = square_to_disc(u);
     return {d.x, d.y, std::sqrt(std::max(1e-12f, 1 - d.x * d.x - d.y * d.y))};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "integrator/estimator_lanes.h"
 #include "render/recording.h"
 #include "render/strategy_cells.h"
 
@@ -127,6 +128,46 @@ class FilmRecord {
             if (pixel_[i] != FixedRgb{}) add((*targets_.films)[i], x_, y_, pixel_[i]);
     }
 
+    // The same for the samples of a whole group, one in each lane; there is one exponent.
+    void begin_group(const PixelGroup& g, std::uint64_t pass) {
+        x0_ = g.x0;
+        y_ = g.y;
+        pass_ = pass;
+        group_ = {};
+        for (int x = g.x0; x < g.x1; ++x) prefetch(place_in(targets_.films->front(), x, g.y));
+    }
+    void contributions(const FoundLanes& f, int sample = 0) {
+        const PlainValues plain = plain_values(f);
+        for_each_lane(plain.lanes, [&](int k) {
+            const FixedRgb v = fixed(plain.value[k]);
+            for (int i = 0; i < 3; ++i)
+                if (__builtin_add_overflow(group_[k][i], v[i], &group_[k][i]))
+                    ++sums_.fixed.overflow;
+        });
+        for_each_lane(f.lanes & ~plain.lanes, [&](int k) {
+            go_to_lane(k);
+            pixel_[0] = group_[k];
+            contribution(contribution_of(f, k, sample));
+            group_[k] = pixel_[0];
+        });
+    }
+    void splats(const SplatLanes& s) {
+        const PlainValues plain = plain_values(s.found);
+        for_each_lane(plain.lanes, [&](int k) {
+            const SplatPixel& p = s.pixels[k];
+            wait(place_in(targets_.films->front(), p.x, p.y), sums_.fixed.overflow) =
+                fixed(plain.value[k]);
+        });
+        for_each_lane(s.found.lanes & ~plain.lanes, [&](int k) {
+            go_to_lane(k);
+            splat(s.pixels[k].x, s.pixels[k].y, contribution_of(s.found, k, 0));
+        });
+    }
+    void end_group() {
+        for (int k = 0; k < lane_count; ++k)
+            if (group_[k] != FixedRgb{}) add(targets_.films->front(), x0_ + k, y_, group_[k]);
+    }
+
   private:
     // On its way to a film.
     struct Waiting {
@@ -134,6 +175,33 @@ class FilmRecord {
         std::uint64_t* lost = nullptr;
         FixedRgb value;
     };
+
+    // Weighted values of the lanes that nothing is to be done about but to add them: finite, neither
+    // clamped nor so small that recorded_fixed() lifts them, and watched by nobody.
+    struct PlainValues {
+        Mask8 lanes{};
+        Vec3x8 value;
+    };
+    PlainValues plain_values(const FoundLanes& f) const {
+        const Recording& r = targets_.recording;
+        PlainValues p;
+        if (observed || r.unweighted) return p;
+        const Float8 weight = to_float(f.weight), least = all_lanes(0x1p-100f);
+        p.value = f.value * weight;
+        const auto above = [&](const Float8& v, const Float8& bare) {
+            return (v >= least) | (bare == 0);
+        };
+        p.lanes = f.lanes & is_finite(f.value) & is_finite(weight) &
+                  above(p.value.x, f.value.x) & above(p.value.y, f.value.y) &
+                  above(p.value.z, f.value.z) & ~(max_component(p.value) > r.clamp);
+        return p;
+    }
+
+    void go_to_lane(int lane) {
+        x_ = x0_ + lane;
+        if constexpr (observed)
+            if (targets_.cells) buffer_.move_to(*targets_.cells, x_, y_, sums_.cells_lost);
+    }
 
     FilmPlace place_in(Film& film, int x, int y) const {
         return film.place(half(), x - targets_.crop.x0, y - targets_.crop.y0);
@@ -233,6 +301,8 @@ class FilmRecord {
     int x_ = 0, y_ = 0;
     std::uint64_t pass_ = 0;
     std::array<FixedRgb, max_exponents> pixel_{};
+    int x0_ = 0;  // of a group
+    std::array<FixedRgb, lane_count> group_{};
     std::array<Waiting, observed ? 48 : 16> waiting_;
     size_t waiting_count_ = 0;
     struct Nothing {};

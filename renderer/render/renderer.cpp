@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "integrator/estimator_lanes.h"
 #include "math/float_mode.h"
 #include "render/pass_gate.h"
 #include "render/worker_priority.h"
@@ -101,14 +102,19 @@ bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
     LightSubpaths light;
     for (LightSubpath& l : light.of)
         l.reserve(static_cast<size_t>(std::min(estimator_.max_bounces, 64)));
+    const auto lanes = std::make_unique<EstimatorLanes>();
     FilmRecord<observed> record(targets_, sums);
     const auto go_on = [&] { return !batch.control || batch.control->go_on(); };
+    const auto render_group = [&](const PixelGroup& g, std::uint64_t pass) {
+        if constexpr (F.one_power2)
+            if (g.size() == lane_count)
+                return estimate_lanes<F>(estimator_, g, pass, *lanes, record, sums.rays, go_on);
+        return estimate<F>(estimator_, g, pass, light, record, sums.rays, go_on);
+    };
     const auto render_block = [&](const PixelRect& r, std::uint64_t pass) {
         for (int y = r.y0; y < r.y1; ++y)
             for (int x = r.x0; x < r.x1; x += group_pixels)
-                if (!estimate<F>(estimator_, group_of(tiles.crop, x, y), pass, light, record,
-                                 sums.rays, go_on))
-                    return false;
+                if (!render_group(group_of(tiles.crop, x, y), pass)) return false;
         return true;
     };
     // Where thumbnails are gathered, the samples of one of their pixels nearly follow each other.

@@ -1,3 +1,4 @@
+#include "math/float_mode.h"
 #include "scene/build_lights.h"
 #include "scene/duplicates.h"
 #include "scene/needless.h"
@@ -168,6 +169,23 @@ bool still_fits(const Scene& previous, const SceneDescription& d) {
     return true;
 }
 
+// As workers compute it where they must.
+std::vector<std::optional<Bsdf>> find_even_surfaces(const Scene& s) {
+    const ScopedFlushToZero flush;
+    std::vector<std::optional<Bsdf>> surfaces;
+    for (const Object& o : s.geometry->objects) {
+        const Material& m = s.materials[o.material];
+        const auto refs = texture_refs(m);
+        const bool even = o.colors.empty() && std::none_of(refs.begin(), refs.end(), [&](auto* r) {
+                              return r->used() && r != &m.emission_texture;
+                          });
+        ShadingPoint p;
+        p.thin = !o.closed;
+        surfaces.push_back(even ? std::optional(make_bsdf(m, s.textures, p)) : std::nullopt);
+    }
+    return surfaces;
+}
+
 }  // namespace
 
 std::optional<Bounds> scene_bounds(const SceneDescription& d) {
@@ -205,6 +223,7 @@ Scene build_scene(const SceneDescription& d, std::vector<std::string>& warnings,
     // A margin for the rounding of positions, so that the disc covers everything.
     s.radius = s.geometry->radius * (1 + 0x1p-20f);
     for (const Object& o : s.geometry->objects) s.has_transparency |= o.may_be_transparent;
+    s.even_surfaces = find_even_surfaces(s);
     build_lights(s, d, options);
     return s;
 }

@@ -1,14 +1,10 @@
 #include "scene/geometry.h"
 
 #include "math/hash.h"
+#include "scene/rounding.h"
 
 namespace midway {
 namespace {
-
-// Rounding steps that a position goes through (barycentric sum, Embree's plane test, the offset
-// itself), each worth half a unit in the last place of the largest number involved.
-constexpr float error_steps = 12;
-constexpr float half_ulp = 0x1p-24f;
 
 template <class T>
 T interpolate(const std::vector<T>& values, const uvec3& t, float b0, float b1, float b2) {
@@ -28,7 +24,7 @@ inline FlatTriangle flatten(const Object& o, int triangle) {
 inline TrianglePoint point_on(const FlatTriangle& t, float b1, float b2) {
     TrianglePoint p;
     p.position = t.v0 * (1 - b1 - b2) + t.v1 * b1 + t.v2 * b2;
-    p.error = error_steps * half_ulp * (max_component(glm::abs(p.position)) + t.extent);
+    p.error = rounding_error(max_component(glm::abs(p.position)) + t.extent);
     p.ng = t.ng;
     return p;
 }
@@ -72,7 +68,7 @@ vec3 offset_origin(const vec3& position, const vec3& ng, float error, const vec3
 
 vec3 offset_end(const vec3& position, const vec3& ng, float error, const vec3& from) {
     const vec3 back = from - position;
-    const float far_error = error_steps * half_ulp * max_component(glm::abs(back));
+    const float far_error = rounding_error(max_component(glm::abs(back)));
     return offset_origin(position, ng, error + far_error, back);
 }
 

@@ -4,10 +4,12 @@
 
 #include "math/spherical_triangle.h"
 #include "math/warp.h"
-#include "scene/scene.h"
+#include "scene/light_parts.h"
 
 namespace midway {
 namespace {
+
+using namespace light_parts;
 
 // KHR_lights_punctual: the square of a linear ramp in cos(theta) between the two cone angles.
 float spot_falloff(const Light& l, float cos_theta) {
@@ -57,11 +59,6 @@ double next_event_probability(const Scene& s, int light, const vec3& reference) 
            s.light_tree.probability(first_of_lamp(*s.lamps, light), reference);
 }
 
-// Whether next event draws a lamp by solid angle.
-bool is_near(const Scene& s, int light, const vec3& reference) {
-    return (*s.lamps)[light].near_squared > length_squared(s.lights[light].position - reference);
-}
-
 TriangleFrom seen_from(const FlatTriangle& t, const vec3& reference) {
     const dvec3 r(reference);
     return {dvec3(t.v0) - r, dvec3(t.v1) - r, dvec3(t.v2) - r};
@@ -105,15 +102,6 @@ LightPdfs sky_pdfs(const Scene& s, const vec3& direction) {
     const float pdf_w = sky_pdf_w(*s.sky, direction);
     return {static_cast<float>(s.lights[s.sky_light].emission_pick) * pdf_w, disc_pdf(s),
             static_cast<float>(group_probability(s, s.sky_light)) * pdf_w};
-}
-
-// Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
-vec3 area_emission(const Scene& s, int light, const vec2& b) {
-    const Material& m = s.materials[(*s.lamps)[light].material];
-    if (!m.emission_texture.used() && m.alpha_mode == AlphaMode::opaque) return m.emission;
-    const TriangleHit hit = hit_on_lamp((*s.lamps)[light], s.lights[light], b);
-    const ShadingPoint p = surface_point(s.geometry->objects[hit.object], hit).shading;
-    return material_emission(m, s.textures, p) * material_alpha(m, s.textures, p);
 }
 
 // `first`: as picked; e.light becomes the triangle.
@@ -238,25 +226,55 @@ void next_event_punctual(const Scene& s, double picked, const vec3& reference, N
     n.value = l.emission * ((spot ? spot_falloff(l, c) : 1.0f) / (n.distance_squared * pick_next));
 }
 
-// The light that next event asks, with its probability.
-double pick_light(const Scene& s, const vec3& reference, double u, int& light) {
-    double of_tree = 0;
+}  // namespace
+
+namespace light_parts {
+
+LightPick pick_light(const Scene& s, const vec3& reference, double u) {
+    LightPick p;
     if (s.infinite_lights.empty()) {
-        light = s.light_tree.sample(reference, u, of_tree);
-        return of_tree;
-    }
-    const int group = find_interval(s.next_event_group, u);
-    const double p = s.next_event_group.probability(group);
-    if (group > 0) {
-        light = s.infinite_lights[static_cast<size_t>(group) - 1];
+        p.light = s.light_tree.sample(reference, u, p.probability);
         return p;
     }
-    const double inside = std::clamp((u - s.next_event_group.cdf[0]) / p, 0.0, 1 - 0x1p-53);
-    light = s.light_tree.sample(reference, inside, of_tree);
-    return p * of_tree;
+    const int group = find_interval(s.next_event_group, u);
+    const double of_group = s.next_event_group.probability(group);
+    if (group > 0) return {s.infinite_lights[static_cast<size_t>(group) - 1], of_group};
+    const double inside =
+        std::clamp((u - s.next_event_group.cdf[0]) / of_group, 0.0, 1 - 0x1p-53);
+    p.light = s.light_tree.sample(reference, inside, p.probability);
+    p.probability *= of_group;
+    return p;
 }
 
-}  // namespace
+vec3 area_emission(const Scene& s, int light, const vec2& b) {
+    const Material& m = s.materials[(*s.lamps)[light].material];
+    if (!m.emission_texture.used() && m.alpha_mode == AlphaMode::opaque) return m.emission;
+    const TriangleHit hit = hit_on_lamp((*s.lamps)[light], s.lights[light], b);
+    const ShadingPoint p = surface_point(s.geometry->objects[hit.object], hit).shading;
+    return material_emission(m, s.textures, p) * material_alpha(m, s.textures, p);
+}
+
+std::optional<NextEventSample> sample_picked(const Scene& s, const LightPick& pick,
+                                             const vec3& reference, const vec2& u) {
+    std::optional<NextEventSample> found;
+    NextEventSample& n = found.emplace();
+    n.light = pick.light;
+    const LightKind kind = s.lights[n.light].kind;
+    if (kind == LightKind::area) {
+        next_event_area(s, pick.probability, reference, u, n);
+    } else if (kind == LightKind::sky) {
+        n.direction = sample_sky(*s.sky, u).direction;
+        n.pdfs = sky_pdfs(s, n.direction);
+        // Rounded, the direction may lie in the next cell, which may be black and have no density.
+        if (n.pdfs.next_event > 0) n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
+    } else {
+        next_event_punctual(s, pick.probability, reference, n);
+    }
+    if (is_black(n.value)) found.reset();
+    return found;
+}
+
+}  // namespace light_parts
 
 std::optional<EmissionSample> sample_emission(const Scene& s, const EmissionNumbers& u) {
     std::optional<EmissionSample> found;
@@ -278,23 +296,8 @@ std::optional<EmissionSample> sample_emission(const Scene& s, const EmissionNumb
 
 std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& reference,
                                                  const NextEventNumbers& u) {
-    std::optional<NextEventSample> found;
-    if (!(s.next_event_group.total > 0)) return found;
-    NextEventSample& n = found.emplace();
-    const double pick = pick_light(s, reference, u.pick, n.light);
-    const LightKind kind = s.lights[n.light].kind;
-    if (kind == LightKind::area) {
-        next_event_area(s, pick, reference, u.point, n);
-    } else if (kind == LightKind::sky) {
-        n.direction = sample_sky(*s.sky, u.point).direction;
-        n.pdfs = sky_pdfs(s, n.direction);
-        // Rounded, the direction may lie in the next cell, which may be black and have no density.
-        if (n.pdfs.next_event > 0) n.value = sky_radiance(*s.sky, n.direction) / n.pdfs.next_event;
-    } else {
-        next_event_punctual(s, pick, reference, n);
-    }
-    if (is_black(n.value)) found.reset();
-    return found;
+    if (!(s.next_event_group.total > 0)) return {};
+    return sample_picked(s, pick_light(s, reference, u.pick), reference, u.point);
 }
 
 double next_event_ratio(const Scene& s, int light, const LightEdge& k) {

@@ -25,6 +25,9 @@ struct Scene {
     std::shared_ptr<const Accel> accel;
     std::vector<Material> materials;
     TextureSet textures;
+    // Of each object the Bsdf that it has everywhere, but for the frame and the normals; none where
+    // textures or colours vary it.
+    std::vector<std::optional<Bsdf>> even_surfaces;
     std::vector<Light> lights;     // area lights first
     LampTriangles lamps;           // of the area lights
     Distribution1D emission_pick;  // by power; of a parallelogram, its first triangle for both

@@ -1,0 +1,184 @@
+#include "integrator/walk_lanes.h"
+
+#include "scene/rounding.h"
+
+namespace midway {
+namespace {
+
+void trace_rays(const Estimator& e, WalkLanes& w) {
+    const bool coins = e.scene->has_transparency;
+    w.surface = w.sky = no_lane;
+    for_each_lane(w.active, [&](int k) {
+        const std::uint64_t toss = coins ? walk_coin(w.keys[k], w.index) : 0;
+        w.hits[k] = e.scene->accel->closest({w.origin[k], w.direction[k]}, {e.scene}, toss);
+        (w.hits[k].object < 0 ? w.sky : w.surface)[k] = -1;
+    });
+}
+
+// Eq. (22)-(25), (34), (37), (38): sums at vertex 1.
+void start_light_sums(const Estimator& e, const Vec3x8& position, const Float8& cos_in,
+                      const Float8& distance2, WalkLanes& w) {
+    for_each_lane(w.surface, [&](int k) {
+        const bool infinite = w.infinite_light[k], hittable = w.hittable_light[k];
+        const LightPdfs& pdfs = w.light_pdfs[k];
+        mis::LightStart l;
+        l.pdf_origin = pdfs.origin;
+        l.pdf_a = pdfs.leave * double(cos_in[k]) / (infinite ? 1 : double(distance2[k]));
+        l.g_light = infinite ? 1 : w.cos_previous[k] / double(distance2[k]);
+        l.next_event_ratio =
+            next_event_ratio(*e.scene, w.lights[k],
+                             {position[k], w.cos_previous[k], distance2[k]});
+        l.hittable = hittable && e.weighed[0].emitter_hit;
+        const mis::State s = mis::start_light(mis::Power2<>{}, l);
+        w.mis.vcm.set(k, s.vcm);
+        w.mis.vc.set(k, s.vc);
+    });
+}
+
+template <Facts F>
+void start_sums(const Estimator& e, const Vec3x8& position, const Float8& cos_in,
+                const Float8& distance2, WalkLanes& w) {
+    w.mis = {all_lanes(0.0), all_lanes(0.0)};
+    if constexpr (F.path_tracer) return;
+    if (w.transport == Transport::importance) 
+        return start_light_sums(e, position, cos_in, distance2, w);
+    const Double8 pdf_a = to_double(w.pdf_fwd_w) * to_double(cos_in) / to_double(distance2);
+    w.mis.vcm = mis::square(all_lanes(double(e.light_subpaths)) / pdf_a);
+}
+
+template <Facts F>
+void advance_sums(const Estimator& e, WalkLanes& w, const Double8& g_fwd, const Double8& g_rev) {
+    const Double8 pdf_fwd_a = to_double(w.pdf_fwd_w) * g_fwd;
+    if constexpr (F.path_tracer) {
+        w.mis = mis::path_tracer::advance(pdf_fwd_a, w.delta);
+    } else {
+        const double n = e.count(previous_strategy(w.transport, w.index), 0);
+        w.mis = mis::advance(w.mis,
+                                    {pdf_fwd_a, g_rev, to_double(w.pdf_rev_w), w.delta, n});
+    }
+}
+
+// Eight numbers of each lane's vertex, turned into eight lanes of each number.
+void draw_numbers(const WalkLanes& w, const Mask8& lanes, std::uint32_t group,
+                  std::array<Float8, 4>& first, std::array<Float8, 4>& second) {
+    for_each_lane(lanes, [&](int k) {
+        const auto u = sample_4d_pair(w.keys[k], group);
+        for (int i = 0; i < 4; ++i) {
+            first[i][k] = u[0][i];
+            second[i][k] = u[1][i];
+        }
+    });
+}
+
+}  // namespace
+
+void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, WalkLanes& w) {
+    w.transport = Transport::radiance;
+    w.active = every_lane;
+    w.index = 0;
+    w.infinite_light = no_lane;
+    w.delta = no_lane;
+    w.throughput = all_lanes(vec3(1));
+    w.roulette_reference = all_lanes(1.0f);
+    w.cos_previous = all_lanes(1.0f);
+    w.pdf_rev_w = Float8{};
+    for (int k = 0; k < lane_count; ++k) {
+        const Walk one = start_camera_walk(e, x0 + k, y, pass);
+        w.keys[k] = one.key;
+        w.origin.set(k, one.ray.origin);
+        w.direction.set(k, one.ray.direction);
+        w.pdf_fwd_w[k] = one.pdf_fwd_w;
+    }
+    w.previous_position = w.origin;
+}
+
+void start_light_walks(const Estimator& e, const std::array<std::uint64_t, lane_count>& numbers,
+                       std::uint64_t pass, WalkLanes& w) {
+    w.transport = Transport::importance;
+    w.active = w.infinite_light = w.hittable_light = no_lane;
+    w.index = 0;
+    w.delta = no_lane;
+    w.pdf_fwd_w = w.pdf_rev_w = Float8{};
+    for (int k = 0; k < lane_count; ++k) {
+        if (numbers[k] >= e.light_subpaths) continue;
+        const std::optional<Walk> one = start_light_walk(e, numbers[k], pass);
+        if (!one) continue;
+        w.active[k] = -1;
+        w.keys[k] = one->key;
+        w.origin.set(k, one->ray.origin);
+        w.direction.set(k, one->ray.direction);
+        w.throughput.set(k, one->throughput);
+        w.previous_position.set(k, one->previous_position);
+        w.roulette_reference[k] = one->roulette_reference;
+        w.cos_previous[k] = one->cos_previous;
+        w.lights[k] = one->light;
+        w.light_pdfs[k] = one->light_pdfs;
+        w.infinite_light[k] = one->infinite_light ? -1 : 0;
+        w.hittable_light[k] = one->hittable_light ? -1 : 0;
+    }
+}
+
+template <Facts F>
+void extend(const Estimator& e, WalkLanes& w, StoredVertex& vertex) {
+    e.at(Work::rays);
+    trace_rays(e, w);
+    e.at(Work::shading);
+    ++w.index;
+    VertexLanes& v = vertex.lanes;
+    v.index = w.index;
+    v.throughput = w.throughput;
+    surfaces_at(*e.scene, w.hits, w.surface, v.surface, vertex.store);
+    const Vec3x8 back = w.previous_position - v.surface.position;
+    const Float8 distance2 = length_squared(back);
+    v.to_previous = back / sqrt(distance2);
+    // From an infinitely far light the edge has the direction of the ray, wherever the disc lies.
+    if (w.index == 1) v.to_previous = select(w.infinite_light, -w.direction, v.to_previous);
+    const Float8 cos_in = abs_dot(v.surface.bsdf.ng, v.to_previous);
+    // Where two surfaces touch within rounding, or one is met edge-on, there is nothing to walk.
+    w.surface &= (distance2 > 0) & (cos_in > 0);
+    w.active = w.surface;
+    v.connectible = w.surface & connectible(v.surface.bsdf);
+    e.at(Work::weights);
+    // A vertex at infinity: g = 1 (eq. 37). Nothing will be weighed where a light's walk ends.
+    const Float8 one = all_lanes(1.0f);
+    const Float8 cos_fwd = select(w.sky, one, cos_in), d2 = select(w.sky, one, distance2);
+    if (w.index == 1)
+        start_sums<F>(e, v.surface.position, cos_fwd, d2, w);
+    else
+        advance_sums<F>(e, w, to_double(cos_fwd) / to_double(d2),
+                        to_double(w.cos_previous) / to_double(d2));
+    v.mis = w.mis;
+    e.at(Work::sampling);
+    draw_numbers(w, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index), w.scatter_numbers,
+                 w.connect_numbers);
+    e.at(Work::shading);
+}
+
+void scatter(const Estimator& e, const VertexLanes& vertex, WalkLanes& w) {
+    const SurfaceLanes& p = vertex.surface;
+    const auto& u = w.scatter_numbers;
+    const BsdfSample8 s = sample_bsdfs(p.bsdf, w.surface, vertex.to_previous, {u[0], u[1], u[2]},
+                                       w.transport);
+    w.active = w.surface & s.drawn;
+    w.throughput = w.throughput * s.weight;
+    // Refraction scales radiance until the path leaves the glass again; survival ignores that.
+    w.roulette_reference = w.roulette_reference * s.eta_scale;
+    if (w.index >= e.roulette_start) {
+        const Float8 survival = max_component(w.throughput) / w.roulette_reference;
+        const Mask8 risks = survival < 1;
+        w.active &= ~(risks & ~(u[3] < survival));
+        w.throughput = select(risks, w.throughput / survival, w.throughput);
+    }
+    w.origin = offset_origin(p.position, p.bsdf.ng, p.error, s.to);
+    w.direction = s.to;
+    w.previous_position = p.position;
+    w.pdf_fwd_w = s.pdf_fwd_w;
+    w.pdf_rev_w = s.pdf_rev_w;
+    w.cos_previous = abs_dot(p.bsdf.ng, s.to);
+    w.delta = s.delta;
+}
+
+template void extend<power2_facts>(const Estimator&, WalkLanes&, StoredVertex&);
+template void extend<path_tracer_facts>(const Estimator&, WalkLanes&, StoredVertex&);
+
+}  // namespace midway

@@ -1,0 +1,28 @@
+// What light.cpp (one sample) and next_event_lanes.cpp (eight at once) share; nobody else includes
+// it.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace midway::light_parts {
+
+// The light that next event asks, with its probability. A parallelogram by its first triangle.
+struct LightPick {
+    int light = -1;
+    double probability = 0;
+};
+LightPick pick_light(const Scene& scene, const vec3& reference, double u);
+
+// Whether next event draws a lamp by solid angle.
+inline bool is_near(const Scene& s, int light, const vec3& reference) {
+    return (*s.lamps)[light].near_squared > length_squared(s.lights[light].position - reference);
+}
+
+// Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
+vec3 area_emission(const Scene& scene, int light, const vec2& b);
+
+// sample_next_event() for a light that has been picked already.
+std::optional<NextEventSample> sample_picked(const Scene& scene, const LightPick& pick,
+                                             const vec3& reference, const vec2& u);
+
+}  // namespace midway::light_parts
