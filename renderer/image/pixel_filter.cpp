@@ -74,6 +74,17 @@ vec2 sample_filter(const PixelFilter& f, const vec2& u) {
     return {axis(u.x), axis(u.y)};
 }
 
+std::array<Float8, 2> sample_filters(const PixelFilter& f, const Float8& u, const Float8& v) {
+    if (f.profile.size() == 1) return {f.radius * (2.0f * u - 1.0f), f.radius * (2.0f * v - 1.0f)};
+    std::array<Float8, 2> offset{};
+    for (int k = 0; k < lane_count; ++k) {
+        const vec2 one = sample_filter(f, {u[k], v[k]});
+        offset[0][k] = one.x;
+        offset[1][k] = one.y;
+    }
+    return offset;
+}
+
 float filter_value(const PixelFilter& f, float x) {
     const auto cells = static_cast<float>(f.values.size());
     const float place = (x / f.radius + 1) * 0.5f * cells;

@@ -4,11 +4,12 @@
 // profile per axis, hence the same filter to the last bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
 #include "math/distribution.h"
-#include "math/vector.h"
+#include "math/lanes.h"
 
 namespace midway {
 
@@ -25,6 +26,9 @@ PixelFilter make_filter(FilterKind kind);
 
 // Offset from the pixel's centre, in pixels.
 vec2 sample_filter(const PixelFilter& filter, const vec2& u);
+
+// The same for eight, each axis by itself.
+std::array<Float8, 2> sample_filters(const PixelFilter& filter, const Float8& u, const Float8& v);
 
 // One axis of the filter at distance x, per pixel; its integral is one.
 float filter_value(const PixelFilter& filter, float x);

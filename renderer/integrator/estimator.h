@@ -35,9 +35,10 @@ struct RayCounts {
     // of its own shares the last one).
     std::vector<std::uint64_t>* by_strategy = nullptr;
 
-    void count_shadow(const Strategy& k) {
-        ++shadow;
-        if (by_strategy) ++(*by_strategy)[std::min(strategy_index(k), by_strategy->size() - 1)];
+    void count_shadow(const Strategy& k, unsigned count = 1) {
+        shadow += count;
+        if (by_strategy)
+            (*by_strategy)[std::min(strategy_index(k), by_strategy->size() - 1)] += count;
     }
 };
 

@@ -13,21 +13,15 @@ Vec3x8 arrive_at(const SurfaceLanes& p, const Vec3x8& from) {
     return offset_end(p.position, p.bsdf.ng, p.error, from);
 }
 
-// Traces the rays of what would carry something, from + [0, tfar] * along; lanes that are blocked
-// are no longer found.
-void let_pass(const Estimator& e, FoundLanes& c, const Vec3x8& from, const Vec3x8& along,
-              const Float8& tfar, RayCounts& rays) {
+// Traces the rays of what would carry something; lanes that are blocked are no longer found.
+void let_pass(const Estimator& e, FoundLanes& c, const RayLanes& edges, RayCounts& rays) {
     c.lanes &= ~is_black(c.value) & not_zero(c.weight);
+    rays.count_shadow(c.strategy, static_cast<unsigned>(std::popcount(bits(c.lanes))));
     e.at(Work::rays);
-    for_each_lane(c.lanes, [&](int k) {
-        rays.count_shadow(c.strategy);
-        const float part =
-            e.scene->accel->transmittance({from[k], along[k], tfar[k]}, {e.scene});
-        if (part == 1) return;
-        c.value.set(k, c.value[k] * part);
-        if (!(part > 0)) c.lanes[k] = 0;
-    });
+    const Float8 part = e.scene->accel->transmittance(edges, c.lanes, {e.scene});
     e.at(Work::other);
+    c.value = c.value * part;
+    c.lanes &= part > 0;
 }
 
 // may_scatter() of bsdf.h.
@@ -133,8 +127,10 @@ FoundLanes connect_to_lights(const Estimator& e, const VertexLanes& v,
     const Vec3x8 from = leave(p, n.direction);
     const Vec3x8 to = offset_end(n.target, n.normal, n.error, p.position);
     const Float8 open = all_lanes(std::numeric_limits<float>::infinity());
-    let_pass(e, c, from, select(n.infinite, n.direction, to - from),
-             select(n.infinite, open, all_lanes(1.0f)), rays);
+    let_pass(e, c,
+             {from, select(n.infinite, n.direction, to - from),
+              select(n.infinite, open, all_lanes(1.0f))},
+             rays);
     return c;
 }
 
@@ -143,6 +139,7 @@ FoundLanes connect(const Estimator& e, const VertexLanes& v, const VertexLanes& 
                    RayCounts& rays) {
     e.at(Work::shading);
     FoundLanes c{.strategy = {v.index + 1, light.index + 1}};
+    if (!any(v.connectible & rotate(light.connectible, rotation(shift)))) return c;
     const VertexLanes l = rotated(light, shift);
     const SurfaceLanes &p = v.surface, &q = l.surface;
     const Vec3x8 d = q.position - p.position;
@@ -169,7 +166,7 @@ FoundLanes connect(const Estimator& e, const VertexLanes& v, const VertexLanes& 
                           count_towards_light(e, c.strategy)};
     c.weight = mis::connection(v.mis, camera, l.mis, side, e.connection_share);
     const Vec3x8 from = leave(p, d), to = arrive_at(q, p.position);
-    let_pass(e, c, from, to - from, all_lanes(1.0f), rays);
+    let_pass(e, c, {from, to - from, all_lanes(1.0f)}, rays);
     return c;
 }
 
@@ -181,10 +178,7 @@ SplatLanes connect_to_camera(const Estimator& e, const VertexLanes& l,
     FoundLanes& c = s.found;
     c.strategy = {1, l.index + 1};
     const SurfaceLanes& p = l.surface;
-    Vec3x8 lens = all_lanes(e.camera.position);
-    if (e.camera.lens_radius > 0)
-        for_each_lane(l.connectible,
-                      [&](int k) { lens.set(k, lens_point(e.camera, {u[0][k], u[1][k]})); });
+    const Vec3x8 lens = lens_points(e.camera, l.connectible, u[0], u[1]);
     const Vec3x8 d = lens - p.position;
     const Float8 d2 = length_squared(d);
     const Vec3x8 direction = d / sqrt(d2);
@@ -204,10 +198,8 @@ SplatLanes connect_to_camera(const Estimator& e, const VertexLanes& l,
         eval_bsdfs(p.bsdf, c.lanes, l.to_previous, direction, Transport::importance);
     c.lanes &= ~is_black(f.f);
     // Density per area at the vertex of one camera sample per pixel area: also the importance.
-    const Float8 pdf_w =
-        1.0f / (sqr(e.camera.pixel_size) * along * along * along);
     const Double8 pdf_a =
-        to_double(pdf_w) * to_double(abs_dot(p.bsdf.ng, direction)) / to_double(d2);
+        to_double(camera_pdf_w(e.camera, along)) * to_double(abs_dot(p.bsdf.ng, direction)) / to_double(d2);
     c.value = l.throughput * f.f *
               to_float(pdf_a * to_double(factor) / all_lanes(double(e.light_subpaths)));
     e.at(Work::weights);
@@ -215,7 +207,7 @@ SplatLanes connect_to_camera(const Estimator& e, const VertexLanes& l,
         l.mis, {pdf_a, to_double(f.pdf_rev_w), count_towards_light(e, c.strategy)},
         double(e.light_subpaths) * e.share_of(c.strategy.edges()));
     const Vec3x8 from = leave(p, d);
-    let_pass(e, c, from, lens - from, all_lanes(1.0f), rays);
+    let_pass(e, c, {from, lens - from, all_lanes(1.0f)}, rays);
     return s;
 }
 

@@ -95,7 +95,7 @@ void trace_light_subpaths(const Estimator& e,
         extend<F>(e, w, vertex);
         const VertexLanes& v = vertex.lanes;
         if (any(v.connectible) && e.splats(v.index + 1) && record.wants({1, v.index + 1}))
-            record_found(e, connect_to_camera<F>(e, v, w.connect_numbers, rays), record);
+            record_found(e, connect_to_camera<F>(e, v, w.numbers.second, rays), record);
         if (w.index == e.max_bounces || !any(w.surface)) return;
         scatter(e, v, w);
     }
@@ -129,7 +129,7 @@ void trace_camera_subpaths(const Estimator& e, const PixelGroup& g, std::uint64_
 
         if (any(v.connectible)) {
             if (e.families.next_event && record.wants({v.index + 1, 1}))
-                for_each_next_event(e, v.index, w.connect_numbers, [&](const auto& u, int i) {
+                for_each_next_event(e, v.index, w.numbers.second, [&](const auto& u, int i) {
                     record_found(e, connect_to_lights<F>(e, v, u, rays), record, i);
                 });
             if constexpr (!F.path_tracer) connect_to_subpaths<F>(e, v, s, record, rays);

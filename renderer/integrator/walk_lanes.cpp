@@ -6,13 +6,15 @@ namespace midway {
 namespace {
 
 void trace_rays(const Estimator& e, WalkLanes& w) {
-    const bool coins = e.scene->has_transparency;
-    w.surface = w.sky = no_lane;
-    for_each_lane(w.active, [&](int k) {
-        const std::uint64_t toss = coins ? walk_coin(w.keys[k], w.index) : 0;
-        w.hits[k] = e.scene->accel->closest({w.origin[k], w.direction[k]}, {e.scene}, toss);
-        (w.hits[k].object < 0 ? w.sky : w.surface)[k] = -1;
-    });
+    std::array<std::uint64_t, lane_count> coins{};
+    if (e.scene->has_transparency)
+        for_each_lane(w.active, [&](int k) { coins[k] = walk_coin(w.keys[k], w.index); });
+    const Float8 open = all_lanes(std::numeric_limits<float>::infinity());
+    e.scene->accel->closest({w.origin, w.direction, open}, w.active, {e.scene}, coins, w.hits);
+    Mask8 met{};
+    for_each_lane(w.active, [&](int k) { met[k] = w.hits[k].object < 0 ? 0 : -1; });
+    w.surface = met;
+    w.sky = w.active & ~met;
 }
 
 // Eq. (22)-(25), (34), (37), (38): sums at vertex 1.
@@ -58,18 +60,6 @@ void advance_sums(const Estimator& e, WalkLanes& w, const Double8& g_fwd, const 
     }
 }
 
-// Eight numbers of each lane's vertex, turned into eight lanes of each number.
-void draw_numbers(const WalkLanes& w, const Mask8& lanes, std::uint32_t group,
-                  std::array<Float8, 4>& first, std::array<Float8, 4>& second) {
-    for_each_lane(lanes, [&](int k) {
-        const auto u = sample_4d_pair(w.keys[k], group);
-        for (int i = 0; i < 4; ++i) {
-            first[i][k] = u[0][i];
-            second[i][k] = u[1][i];
-        }
-    });
-}
-
 }  // namespace
 
 void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, WalkLanes& w) {
@@ -82,13 +72,16 @@ void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, W
     w.roulette_reference = all_lanes(1.0f);
     w.cos_previous = all_lanes(1.0f);
     w.pdf_rev_w = Float8{};
-    for (int k = 0; k < lane_count; ++k) {
-        const Walk one = start_camera_walk(e, x0 + k, y, pass);
-        w.keys[k] = one.key;
-        w.origin.set(k, one.ray.origin);
-        w.direction.set(k, one.ray.direction);
-        w.pdf_fwd_w[k] = one.pdf_fwd_w;
-    }
+    e.at(Work::sampling);
+    for (int k = 0; k < lane_count; ++k) w.keys[k] = camera_key(e, x0 + k, y, pass);
+    const std::array<Float8, 4> u = sample_4d_pairs(w.keys, every_lane, 0).first;
+    e.at(Work::shading);
+    const Float8 columns = Float8{0, 1, 2, 3, 4, 5, 6, 7} + float(x0);
+    const std::array<Float8, 2> offset = sample_filters(e.filter, u[0], u[1]);
+    w.origin = lens_points(e.camera, every_lane, u[2], u[3]);
+    w.direction = camera_directions(e.camera, w.origin, columns + 0.5f + offset[0],
+                                    (y + 0.5f) + offset[1]);
+    w.pdf_fwd_w = camera_pdf_w(e.camera, dot(w.direction, all_lanes(e.camera.forward)));
     w.previous_position = w.origin;
 }
 
@@ -149,14 +142,14 @@ void extend(const Estimator& e, WalkLanes& w, StoredVertex& vertex) {
                         to_double(w.cos_previous) / to_double(d2));
     v.mis = w.mis;
     e.at(Work::sampling);
-    draw_numbers(w, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index), w.scatter_numbers,
-                 w.connect_numbers);
+    w.numbers =
+        sample_4d_pairs(w.keys, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index));
     e.at(Work::shading);
 }
 
 void scatter(const Estimator& e, const VertexLanes& vertex, WalkLanes& w) {
     const SurfaceLanes& p = vertex.surface;
-    const auto& u = w.scatter_numbers;
+    const auto& u = w.numbers.first;
     const BsdfSample8 s = sample_bsdfs(p.bsdf, w.surface, vertex.to_previous, {u[0], u[1], u[2]},
                                        w.transport);
     w.active = w.surface & s.drawn;

@@ -49,7 +49,7 @@ struct WalkLanes {
     Mask8 surface{};  // lanes that stand on a surface
     Mask8 sky{};      // lanes whose ray left the scene just now
     mis::State8 mis;  // at the vertices reached last, or at infinity
-    std::array<Float8, 4> scatter_numbers, connect_numbers;
+    NumberLanes numbers;  // as VertexNumbers: scatter, connect
 };
 
 // `g` is a whole group.

@@ -9,8 +9,6 @@ namespace {
 
 // Both groups of a pair at once.
 typedef std::uint32_t Lanes __attribute__((vector_size(32)));
-typedef std::int32_t SignedLanes __attribute__((vector_size(32)));
-typedef float FloatLanes __attribute__((vector_size(32)));
 typedef std::uint64_t WideLanes __attribute__((vector_size(32)));
 typedef std::uint8_t Bytes __attribute__((vector_size(32)));
 typedef std::uint32_t Group __attribute__((vector_size(16)));
@@ -148,10 +146,31 @@ Lanes sample_lanes(const SampleKey& sample, std::uint32_t pair) {
 }
 
 // to_unit_float() in every lane: 24 bits fit the conversion from signed integers.
+Float8 to_unit_lanes(const Lanes& x) {
+    return __builtin_convertvector(std::bit_cast<Mask8>(x >> 8), Float8) * 0x1p-24f;
+}
 std::array<vec4, 2> to_unit_floats(const Lanes& x) {
-    const auto upper = std::bit_cast<SignedLanes>(x >> 8);
-    return std::bit_cast<std::array<vec4, 2>>(__builtin_convertvector(upper, FloatLanes) *
-                                              0x1p-24f);
+    return std::bit_cast<std::array<vec4, 2>>(to_unit_lanes(x));
+}
+
+// Numbers 0 to 3 of eight rows (or 4 to 7), as columns.
+template <int first>
+std::array<Float8, 4> columns(const std::array<Float8, lane_count>& rows) {
+    // Rows k and k + 4 side by side.
+    const auto half = [&](int k) {
+        return __builtin_shufflevector(rows[k], rows[k + 4], first, first + 1, first + 2,
+                                       first + 3, first + 8, first + 9, first + 10, first + 11);
+    };
+    const auto low = [](const Float8& a, const Float8& b) {
+        return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+    };
+    const auto high = [](const Float8& a, const Float8& b) {
+        return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    };
+    const Float8 a = half(0), b = half(1), c = half(2), d = half(3);
+    const Float8 ac_low = low(a, c), bd_low = low(b, d), ac_high = high(a, c), bd_high = high(b, d);
+    return {low(ac_low, bd_low), high(ac_low, bd_low), low(ac_high, bd_high),
+            high(ac_high, bd_high)};
 }
 
 }  // namespace
@@ -173,6 +192,14 @@ vec4 sample_4d(const SampleKey& sample, std::uint32_t group) {
 
 std::array<vec4, 2> sample_4d_pair(const SampleKey& sample, std::uint32_t group) {
     return to_unit_floats(sample_lanes(sample, group / 2));
+}
+
+NumberLanes sample_4d_pairs(const std::array<SampleKey, lane_count>& samples, const Mask8& wanted,
+                            std::uint32_t group) {
+    std::array<Float8, lane_count> rows{};
+    for_each_lane(wanted,
+                  [&](int k) { rows[k] = to_unit_lanes(sample_lanes(samples[k], group / 2)); });
+    return {columns<0>(rows), columns<4>(rows)};
 }
 
 }  // namespace midway

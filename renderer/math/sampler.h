@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "math/hash.h"
-#include "math/vector.h"
+#include "math/lanes.h"
 
 namespace midway {
 
@@ -36,5 +36,12 @@ vec4 sample_4d(const SampleKey& sample, std::uint32_t group);
 
 // Of an even group and the next one: as quick as one of them.
 std::array<vec4, 2> sample_4d_pair(const SampleKey& sample, std::uint32_t group);
+
+// The same for eight samples, one in each lane; lanes that are not wanted get any numbers.
+struct NumberLanes {
+    std::array<Float8, 4> first, second;
+};
+NumberLanes sample_4d_pairs(const std::array<SampleKey, lane_count>& samples, const Mask8& wanted,
+                            std::uint32_t group);
 
 }  // namespace midway

@@ -58,16 +58,19 @@ inline constexpr float sphere_pdf_w = 0.25f * inv_pi;
 
 // Barycentric coordinates of vertices 1 and 2, uniform on the triangle, without the crease of the
 // square root (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
+template <class F>
+struct TrianglePlace {
+    F b1, b2;
+};
+template <class F>
+TrianglePlace<F> square_to_triangle(const F& u, const F& v) {
+    const auto above = v > u;
+    const F less = 0.5f * select(above, u, v), more = select(above, v, u) - less;
+    return {select(above, less, more), select(above, more, less)};
+}
 inline vec2 square_to_triangle(const vec2& u) {
-    vec2 b = u;
-    if (b.y > b.x) {
-        b.x *= 0.5f;
-        b.y -= b.x;
-    } else {
-        b.y *= 0.5f;
-        b.x -= b.y;
-    }
-    return b;
+    const TrianglePlace<float> p = square_to_triangle(u.x, u.y);
+    return {p.b1, p.b2};
 }
 
 }  // namespace midway

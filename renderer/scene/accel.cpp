@@ -63,16 +63,92 @@ static_assert(offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, dir_x) == 16 &&
               offsetof(RTCRay, time) == 28 && offsetof(RTCRay, tfar) == 32 &&
               alignof(RTCRay) == 16);
 
-// Fills Embree's ray where it stands, in the widths that Embree reads it in: what it reads would
-// otherwise wait for several narrow stores, a tenth of a path tracer's time.
-void fill_ray(RTCRay& r, const Ray& ray) {
+// What Embree reads of a ray, in the widths that it reads it in: it would otherwise wait for several
+// narrow stores, a tenth of a path tracer's time.
+struct RayQuads {
+    Quad origin;     // ..., tnear
+    Quad direction;  // ..., time
+};
+RayQuads quads_of(const Ray& ray) {
+    return {Quad{ray.origin.x, ray.origin.y, ray.origin.z, 0},
+            Quad{ray.direction.x, ray.direction.y, ray.direction.z, 0}};
+}
+
+// Vectors of eight lanes as quads, the fourth number zero: of lane k at place[k].
+constexpr std::array<int, lane_count> place = {0, 2, 4, 6, 1, 3, 5, 7};
+struct QuadLanes {
+    alignas(32) Quad quads[lane_count];
+    const Quad& operator[](int lane) const { return quads[place[lane]]; }
+};
+QuadLanes quads_of(const Vec3x8& v) {
+    const Float8 zero{};
+    const auto low = [](const Float8& a, const Float8& b) {
+        return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+    };
+    const auto high = [](const Float8& a, const Float8& b) {
+        return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    };
+    const Float8 xy = low(v.x, v.y), xy_next = high(v.x, v.y);
+    const Float8 zw = low(v.z, zero), zw_next = high(v.z, zero);
+    const auto lower = [](const Float8& a, const Float8& b) {
+        return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+    };
+    const auto upper = [](const Float8& a, const Float8& b) {
+        return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+    };
+    return std::bit_cast<QuadLanes>(std::array<Float8, 4>{lower(xy, zw), upper(xy, zw),
+                                                          lower(xy_next, zw_next),
+                                                          upper(xy_next, zw_next)});
+}
+
+void fill_ray(RTCRay& r, const RayQuads& q, float tfar) {
     Quad* quads = reinterpret_cast<Quad*>(&r);
-    quads[0] = Quad{ray.origin.x, ray.origin.y, ray.origin.z, 0};           // ..., tnear
-    quads[1] = Quad{ray.direction.x, ray.direction.y, ray.direction.z, 0};  // ..., time
-    r.tfar = ray.tfar;
+    quads[0] = q.origin;
+    quads[1] = q.direction;
+    r.tfar = tfar;
     r.mask = ~0u;
     r.id = 0;
     r.flags = 0;
+}
+
+TriangleHit trace_closest(RTCScene scene, Query& q, const RayQuads& ray, float tfar) {
+    RTCRayHit r;
+    fill_ray(r.ray, ray, tfar);
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if MIDWAY_EMBREE4
+    RTCIntersectArguments args;
+    rtcInitIntersectArguments(&args);
+    args.context = &q.embree;
+    rtcIntersect1(scene, &r, &args);
+#else
+    rtcIntersect1(scene, &q.embree, &r);
+#endif
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {static_cast<int>(r.hit.geomID), static_cast<int>(r.hit.primID), r.hit.u, r.hit.v};
+}
+
+float trace_segment(RTCScene scene, Query& q, const RayQuads& ray, float tfar) {
+    RTCRay r;
+    fill_ray(r, ray, tfar);
+    q.transmittance = 1;
+#if MIDWAY_EMBREE4
+    RTCOccludedArguments args;
+    rtcInitOccludedArguments(&args);
+    args.context = &q.embree;
+    rtcOccluded1(scene, &r, &args);
+#else
+    rtcOccluded1(scene, &q.embree, &r);
+#endif
+    // Embree marks an occluded ray by tfar = -inf.
+    return r.tfar < 0 ? 0.0f : q.transmittance;
+}
+
+Query make_query(const AlphaLookup& alpha) {
+    Query q;
+    init_context(&q.embree);
+    q.alpha = &alpha;
+    return q;
 }
 
 void write(RayLog& log, const RayLog::Entry& entry) {
@@ -142,43 +218,38 @@ Accel::~Accel() = default;
 
 TriangleHit Accel::closest(const Ray& ray, const AlphaLookup& alpha, std::uint64_t coin) const {
     if (log_) write(*log_, {ray, true});
-    Query q;
-    init_context(&q.embree);
-    q.alpha = &alpha;
+    Query q = make_query(alpha);
     q.coin = coin;
-    RTCRayHit r;
-    fill_ray(r.ray, ray);
-    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if MIDWAY_EMBREE4
-    RTCIntersectArguments args;
-    rtcInitIntersectArguments(&args);
-    args.context = &q.embree;
-    rtcIntersect1(embree_->scene, &r, &args);
-#else
-    rtcIntersect1(embree_->scene, &q.embree, &r);
-#endif
-    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return {static_cast<int>(r.hit.geomID), static_cast<int>(r.hit.primID), r.hit.u, r.hit.v};
+    return trace_closest(embree_->scene, q, quads_of(ray), ray.tfar);
+}
+
+void Accel::closest(const RayLanes& rays, const Mask8& wanted, const AlphaLookup& alpha,
+                    const std::array<std::uint64_t, lane_count>& coins, HitLanes& hits) const {
+    const QuadLanes origins = quads_of(rays.origin), directions = quads_of(rays.direction);
+    Query q = make_query(alpha);
+    for_each_lane(wanted, [&](int k) {
+        if (log_) write(*log_, {rays[k], true});
+        q.coin = coins[k];
+        hits[k] = trace_closest(embree_->scene, q, {origins[k], directions[k]}, rays.tfar[k]);
+    });
 }
 
 float Accel::transmittance(const Ray& ray, const AlphaLookup& alpha) const {
     if (log_) write(*log_, {ray, false});
-    Query q;
-    init_context(&q.embree);
-    q.alpha = &alpha;
-    RTCRay r;
-    fill_ray(r, ray);
-#if MIDWAY_EMBREE4
-    RTCOccludedArguments args;
-    rtcInitOccludedArguments(&args);
-    args.context = &q.embree;
-    rtcOccluded1(embree_->scene, &r, &args);
-#else
-    rtcOccluded1(embree_->scene, &q.embree, &r);
-#endif
-    // Embree marks an occluded ray by tfar = -inf.
-    return r.tfar < 0 ? 0.0f : q.transmittance;
+    Query q = make_query(alpha);
+    return trace_segment(embree_->scene, q, quads_of(ray), ray.tfar);
+}
+
+Float8 Accel::transmittance(const RayLanes& rays, const Mask8& wanted,
+                            const AlphaLookup& alpha) const {
+    const QuadLanes origins = quads_of(rays.origin), directions = quads_of(rays.direction);
+    Query q = make_query(alpha);
+    Float8 parts = all_lanes(1.0f);
+    for_each_lane(wanted, [&](int k) {
+        if (log_) write(*log_, {rays[k], false});
+        parts[k] = trace_segment(embree_->scene, q, {origins[k], directions[k]}, rays.tfar[k]);
+    });
+    return parts;
 }
 
 std::uint64_t Accel::replay(const RayLog& log, const AlphaLookup& alpha) const {

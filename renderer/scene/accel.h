@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "math/lanes.h"
 #include "scene/geometry.h"
 
 namespace midway {
@@ -19,6 +20,15 @@ struct Ray {
     vec3 direction{0, 0, 1};  // any length; tfar is in units of it
     float tfar = std::numeric_limits<float>::infinity();
 };
+
+// Eight of them; a lane each.
+struct RayLanes {
+    Vec3x8 origin, direction;
+    Float8 tfar;
+
+    Ray operator[](int lane) const { return {origin[lane], direction[lane], tfar[lane]}; }
+};
+using HitLanes = std::array<TriangleHit, lane_count>;
 
 // Rays as one thread traced them, in their order.
 struct RayLog {
@@ -53,9 +63,16 @@ class Accel {
     // The first surface that the walk's ray meets; object < 0: none.
     TriangleHit closest(const Ray& ray, const AlphaLookup& alpha, std::uint64_t coin) const;
 
+    // The same for those lanes of eight rays that are wanted, whose hits are written.
+    void closest(const RayLanes& rays, const Mask8& wanted, const AlphaLookup& alpha,
+                 const std::array<std::uint64_t, lane_count>& coins, HitLanes& hits) const;
+
     // What arrives over the segment origin + [0, tfar] * direction: 0 where something opaque is
     // hit.
     float transmittance(const Ray& ray, const AlphaLookup& alpha) const;
+
+    // The same for lanes; 1 where it is not wanted.
+    Float8 transmittance(const RayLanes& rays, const Mask8& wanted, const AlphaLookup& alpha) const;
 
     // Traces a log once more and nothing else; returns how many rays met something.
     std::uint64_t replay(const RayLog& log, const AlphaLookup& alpha) const;

@@ -35,6 +35,21 @@ vec3 camera_direction(const Camera& c, const vec3& lens, const vec2& film) {
     return glm::normalize(c.position + through_center * c.focus_distance - lens);
 }
 
+Vec3x8 lens_points(const Camera& c, const Mask8& wanted, const Float8& u, const Float8& v) {
+    Vec3x8 lens = all_lanes(c.position);
+    if (c.lens_radius != 0)
+        for_each_lane(wanted, [&](int k) { lens.set(k, lens_point(c, {u[k], v[k]})); });
+    return lens;
+}
+
+Vec3x8 camera_directions(const Camera& c, const Vec3x8& lens, const Float8& x, const Float8& y) {
+    const Vec3x8 through_center =
+        all_lanes(c.forward) + all_lanes(c.right) * ((x - 0.5f * c.width) * c.pixel_size) +
+        all_lanes(c.up) * ((0.5f * c.height - y) * c.pixel_size);
+    if (c.lens_radius == 0) return normalize(through_center);
+    return normalize(all_lanes(c.position) + through_center * all_lanes(c.focus_distance) - lens);
+}
+
 CameraDescription look_at(CameraDescription like, const dvec3& eye, const dvec3& target) {
     const dvec3 back = glm::normalize(eye - target);
     // Straight up or down there is no horizon; any right vector serves.

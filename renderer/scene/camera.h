@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "math/vector.h"
+#include "math/lanes.h"
 #include "scene/accel.h"
 #include "scene/scene_description.h"
 
@@ -28,6 +28,11 @@ vec3 lens_point(const Camera& camera, const vec2& u);
 // Unit direction from a lens point to what the film position sees in focus.
 vec3 camera_direction(const Camera& camera, const vec3& lens, const vec2& film);
 
+// The same for eight of them; lens points of the lanes that are wanted.
+Vec3x8 lens_points(const Camera& camera, const Mask8& wanted, const Float8& u, const Float8& v);
+Vec3x8 camera_directions(const Camera& camera, const Vec3x8& lens, const Float8& x,
+                         const Float8& y);
+
 // Where the direction from a lens point lands on the film (perhaps outside of the image); empty for
 // directions that point backwards.
 inline std::optional<vec2> film_position(const Camera& c, const vec3& lens, const vec3& direction) {
@@ -42,8 +47,9 @@ inline std::optional<vec2> film_position(const Camera& c, const vec3& lens, cons
 // Density per solid angle of one sample drawn uniformly over one pixel's area; cos_theta against
 // the view axis. The density of light tracing's splats and of eq. (22) is this times the sample
 // count.
-inline float camera_pdf_w(const Camera& camera, float cos_theta) {
-    return 1 / (sqr(camera.pixel_size) * cos_theta * cos_theta * cos_theta);
+template <class F>
+F camera_pdf_w(const Camera& camera, const F& cos_theta) {
+    return 1.0f / (sqr(camera.pixel_size) * cos_theta * cos_theta * cos_theta);
 }
 
 // A camera that frames the whole scene, for files that hold none.

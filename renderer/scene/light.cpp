@@ -248,7 +248,7 @@ LightPick pick_light(const Scene& s, const vec3& reference, double u) {
 
 vec3 area_emission(const Scene& s, int light, const vec2& b) {
     const Material& m = s.materials[(*s.lamps)[light].material];
-    if (!m.emission_texture.used() && m.alpha_mode == AlphaMode::opaque) return m.emission;
+    if (emits_evenly(m)) return m.emission;
     const TriangleHit hit = hit_on_lamp((*s.lamps)[light], s.lights[light], b);
     const ShadingPoint p = surface_point(s.geometry->objects[hit.object], hit).shading;
     return material_emission(m, s.textures, p) * material_alpha(m, s.textures, p);

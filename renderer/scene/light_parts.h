@@ -18,6 +18,10 @@ inline bool is_near(const Scene& s, int light, const vec3& reference) {
     return (*s.lamps)[light].near_squared > length_squared(s.lights[light].position - reference);
 }
 
+// Whether a lamp emits alike from all its points.
+inline bool emits_evenly(const Material& m) {
+    return !m.emission_texture.used() && m.alpha_mode == AlphaMode::opaque;
+}
 // Radiance times coverage: a point of an alpha-tested lamp emits with probability alpha.
 vec3 area_emission(const Scene& scene, int light, const vec2& b);
 

@@ -39,6 +39,9 @@ class LightTree {
     int sample(const vec3& reference, double u, double& probability) const;
     double probability(int light, const vec3& reference) const;
 
+    // The one light to take, where there are no others; -1: there are none, or several.
+    int only() const { return only_; }
+
     bool operator==(const LightTree&) const = default;
 
   private:
@@ -64,7 +67,7 @@ class LightTree {
     int descend(const vec3& reference, double u, double& probability) const;
     double way_probability(int light, const vec3& reference) const;
 
-    int only_ = -1;  // the one light to take, where there are no others
+    int only_ = -1;
     Distribution1D by_weight_;
     std::vector<Node> nodes_;  // parents before their children
     // The way to each light: three bits a level, the root's lowest, and a 1 above all; 0: none.

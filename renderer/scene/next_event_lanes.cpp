@@ -8,7 +8,7 @@ namespace {
 
 using namespace light_parts;
 
-// Points on lamps that have been picked and are drawn by area, gathered from their tables.
+// Points on lamps that have been picked and are drawn by area.
 struct LampLanes {
     Vec3x8 v0, v1, v2, ng, emission;
     Float8 extent, b1, b2, area, emission_pick;
@@ -32,6 +32,50 @@ void gather_lamp(const Scene& s, const LightPick& pick, const vec2& u, int lane,
     g.emission_pick[lane] = static_cast<float>(l.emission_pick);
     g.next_event.set(lane, pick.probability * (share_of_lamp(*s.lamps, p.light) / double(l.area)));
     g.two_sided[lane] = l.two_sided ? -1 : 0;
+}
+
+// A lamp that is the only light and emits evenly: whatever is picked is known beforehand.
+struct OnlyLamp {
+    int light = -1;  // the first of its triangles
+    const LampTriangle* triangles = nullptr;
+};
+std::optional<OnlyLamp> only_lamp(const Scene& s) {
+    const int light = s.infinite_lights.empty() ? s.light_tree.only() : -1;
+    if (light < 0 || s.lights[light].kind != LightKind::area) return {};
+    const LampTriangle* lamp = &(*s.lamps)[light];
+    if (!emits_evenly(s.materials[lamp->material])) return {};
+    return OnlyLamp{light, lamp};
+}
+
+// The same of gather_lamp(), for all lanes, from one or from either of its two triangles.
+void spread_lamp(const Scene& s, const OnlyLamp& only, const NextEventNumbers8& u, LampLanes& g) {
+    const bool two = only.triangles->partner != 0;
+    const Mask8 second = two ? u.x + u.y >= 1.0f : no_lane;
+    const auto either = [&](const auto& of_triangle) {
+        const auto first = all_lanes(of_triangle(0));
+        return two ? select(second, all_lanes(of_triangle(1)), first) : first;
+    };
+    const auto shape = [&](int i) -> const FlatTriangle& { return only.triangles[i].shape; };
+    const Light* lights = &s.lights[only.light];
+    g.v0 = either([&](int i) { return shape(i).v0; });
+    g.v1 = either([&](int i) { return shape(i).v1; });
+    g.v2 = either([&](int i) { return shape(i).v2; });
+    g.ng = either([&](int i) { return shape(i).ng; });
+    g.extent = either([&](int i) { return shape(i).extent; });
+    g.area = either([&](int i) { return lights[i].area; });
+    g.emission_pick = either([&](int i) { return static_cast<float>(lights[i].emission_pick); });
+    const double share = share_of_lamp(*s.lamps, only.light);
+    g.next_event = either([&](int i) { return share / double(lights[i].area); });
+    g.emission = all_lanes(s.materials[only.triangles->material].emission);
+    g.two_sided = lights->two_sided ? every_lane : no_lane;
+    if (two) {
+        g.b1 = select(second, 1.0f - u.x, u.x);
+        g.b2 = select(second, 1.0f - u.y, u.y);
+    } else {
+        const TrianglePlace<Float8> b = square_to_triangle(u.x, u.y);
+        g.b1 = b.b1;
+        g.b2 = b.b2;
+    }
 }
 
 // As next_event_area() of light.cpp, far from the lamp.
@@ -77,21 +121,26 @@ NextEventLanes sample_next_events(const Scene& s, const Mask8& wanted, const Vec
                                   const NextEventNumbers8& u) {
     NextEventLanes n{};
     if (!(s.next_event_group.total > 0)) return n;
-    Mask8 far{}, others{};
+    Mask8 others{};
     std::array<LightPick, lane_count> picks;
     LampLanes lamps{};
-    for_each_lane(wanted, [&](int k) {
-        const vec3 at = reference[k];
-        picks[k] = pick_light(s, at, u.pick[k]);
-        const bool area = s.lights[picks[k].light].kind == LightKind::area;
-        if (area && !is_near(s, picks[k].light, at)) {
-            gather_lamp(s, picks[k], {u.x[k], u.y[k]}, k, lamps);
-            far[k] = -1;
-        } else {
-            others[k] = -1;
-        }
-    });
-    if (any(far)) sample_lamps(lamps, far, reference, n);
+    if (const std::optional<OnlyLamp> only = only_lamp(s)) {
+        const Vec3x8 apart = all_lanes(s.lights[only->light].position) - reference;
+        others = wanted & (length_squared(apart) < only->triangles->near_squared);
+        picks.fill({only->light, 1});
+        spread_lamp(s, *only, u, lamps);
+    } else {
+        for_each_lane(wanted, [&](int k) {
+            const vec3 at = reference[k];
+            picks[k] = pick_light(s, at, u.pick[k]);
+            const bool area = s.lights[picks[k].light].kind == LightKind::area;
+            if (area && !is_near(s, picks[k].light, at))
+                gather_lamp(s, picks[k], {u.x[k], u.y[k]}, k, lamps);
+            else
+                others[k] = -1;
+        });
+    }
+    if (any(wanted & ~others)) sample_lamps(lamps, wanted & ~others, reference, n);
     for_each_lane(others, [&](int k) {
         const auto one = sample_picked(s, picks[k], reference[k], {u.x[k], u.y[k]});
         if (one) set_lane(s, *one, k, n);

@@ -13,8 +13,6 @@ struct SurfaceLanes {
     BsdfLanes bsdf;
 };
 
-using HitLanes = std::array<TriangleHit, lane_count>;
-
 // Of the lanes that met a triangle. What is too large for lanes is put into `store`.
 void surfaces_at(const Scene& scene, const HitLanes& hits, const Mask8& met, SurfaceLanes& s,
                  BsdfStore& store);
