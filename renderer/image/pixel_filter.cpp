@@ -31,6 +31,7 @@ struct AxisChoice {
 
 // Among the at most four pixel centres within the radius of film coordinate x.
 AxisChoice choose_on_axis(const PixelFilter& f, float x, float u) {
+    if (f.values.size() == 1) return {static_cast<int>(std::floor(x)), f.values[0]};  // the box
     const int first = static_cast<int>(std::ceil(x - f.radius - 0.5f));
     const int last = static_cast<int>(std::floor(x + f.radius - 0.5f));
     // Rounding at both ends may let one pixel more in than the radius holds.

@@ -1,6 +1,6 @@
 #include "integrator/estimator_lanes.h"
 
-#include "scene/next_event_lanes.h"
+#include "scene/light_lanes.h"
 #include "scene/rounding.h"
 
 namespace midway {
@@ -99,9 +99,8 @@ FoundLanes connect_to_lights(const Estimator& e, const VertexLanes& v,
     e.at(Work::shading);
     const SurfaceLanes& p = v.surface;
     FoundLanes c{.strategy = {v.index + 1, 1}};
-    const Double8 pick = to_double(u[0]) + all_lanes(0x1p-24) * to_double(u[3]);
-    const NextEventLanes n =
-        sample_next_events(*e.scene, v.connectible, p.position, {pick, u[1], u[2]});
+    const NextEventLanes n = sample_next_events(*e.scene, v.connectible, p.position,
+                                                {fine_numbers(u[0], u[3]), u[1], u[2]});
     if (!any(n.found)) return c;
     const BsdfEval8 f =
         eval_bsdfs(p.bsdf, n.found, v.to_previous, n.direction, Transport::radiance);

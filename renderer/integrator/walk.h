@@ -126,6 +126,10 @@ struct PathVertex {
 // A number with 48 bits from two with 24; the first alone decides where it lies, nearly.
 inline double fine_number(float coarse, float fine) { return coarse + 0x1p-24 * double(fine); }
 
+inline Double8 fine_numbers(const Float8& coarse, const Float8& fine) {
+    return to_double(coarse) + all_lanes(0x1p-24) * to_double(fine);
+}
+
 // Random numbers that a vertex uses: for the walk's next direction and roulette, and for next event
 // or the lens.
 struct VertexNumbers {

@@ -1,5 +1,6 @@
 #include "integrator/walk_lanes.h"
 
+#include "scene/light_lanes.h"
 #include "scene/rounding.h"
 
 namespace midway {
@@ -22,10 +23,9 @@ void start_light_sums(const Estimator& e, const Vec3x8& position, const Float8& 
                       const Float8& distance2, WalkLanes& w) {
     for_each_lane(w.surface, [&](int k) {
         const bool infinite = w.infinite_light[k], hittable = w.hittable_light[k];
-        const LightPdfs& pdfs = w.light_pdfs[k];
         mis::LightStart l;
-        l.pdf_origin = pdfs.origin;
-        l.pdf_a = pdfs.leave * double(cos_in[k]) / (infinite ? 1 : double(distance2[k]));
+        l.pdf_origin = w.light_origin[k];
+        l.pdf_a = w.light_leave[k] * double(cos_in[k]) / (infinite ? 1 : double(distance2[k]));
         l.g_light = infinite ? 1 : w.cos_previous[k] / double(distance2[k]);
         l.next_event_ratio =
             next_event_ratio(*e.scene, w.lights[k],
@@ -88,27 +88,33 @@ void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, W
 void start_light_walks(const Estimator& e, const std::array<std::uint64_t, lane_count>& numbers,
                        std::uint64_t pass, WalkLanes& w) {
     w.transport = Transport::importance;
-    w.active = w.infinite_light = w.hittable_light = no_lane;
     w.index = 0;
     w.delta = no_lane;
     w.pdf_fwd_w = w.pdf_rev_w = Float8{};
+    e.at(Work::sampling);
+    Mask8 wanted{};
     for (int k = 0; k < lane_count; ++k) {
         if (numbers[k] >= e.light_subpaths) continue;
-        const std::optional<Walk> one = start_light_walk(e, numbers[k], pass);
-        if (!one) continue;
-        w.active[k] = -1;
-        w.keys[k] = one->key;
-        w.origin.set(k, one->ray.origin);
-        w.direction.set(k, one->ray.direction);
-        w.throughput.set(k, one->throughput);
-        w.previous_position.set(k, one->previous_position);
-        w.roulette_reference[k] = one->roulette_reference;
-        w.cos_previous[k] = one->cos_previous;
-        w.lights[k] = one->light;
-        w.light_pdfs[k] = one->light_pdfs;
-        w.infinite_light[k] = one->infinite_light ? -1 : 0;
-        w.hittable_light[k] = one->hittable_light ? -1 : 0;
+        wanted[k] = -1;
+        w.keys[k] = light_key(e, numbers[k], pass);
     }
+    const NumberLanes u = sample_4d_pairs(w.keys, wanted, 0);
+    e.at(Work::shading);
+    const EmissionLanes s =
+        sample_emissions(*e.scene, wanted, {fine_numbers(u.second[0], u.second[1]), u.first});
+    w.active = s.found;
+    w.origin =
+        select(s.area, offset_origin(s.position, s.normal, s.error, s.direction), s.position);
+    w.direction = s.direction;
+    w.previous_position = s.position;
+    w.throughput = s.weight;
+    w.roulette_reference = max_component(s.weight);
+    w.cos_previous = s.cos_theta;
+    w.lights = s.lights;
+    w.light_origin = s.origin;
+    w.light_leave = s.leave;
+    w.infinite_light = s.infinite;
+    w.hittable_light = ~s.delta;
 }
 
 template <Facts F>

@@ -41,7 +41,7 @@ struct WalkLanes {
 
     // Starts of light subpaths.
     std::array<int, lane_count> lights{};
-    std::array<LightPdfs, lane_count> light_pdfs;
+    Float8 light_origin, light_leave;  // LightPdfs
     Mask8 infinite_light{}, hittable_light{};
 
     int index = 0;

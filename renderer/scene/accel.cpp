@@ -223,15 +223,39 @@ TriangleHit Accel::closest(const Ray& ray, const AlphaLookup& alpha, std::uint64
     return trace_closest(embree_->scene, q, quads_of(ray), ray.tfar);
 }
 
+namespace {
+
+// Asks the memory for what surfaces_at() will read of a hit: its triangle, and once that is there
+// its corners. Each is fetched while the next ray is traced.
+void prefetch_triangle(const Geometry& g, const TriangleHit& hit) {
+    if (hit.object >= 0) __builtin_prefetch(&g.objects[hit.object].triangles[hit.triangle]);
+}
+void prefetch_corners(const Geometry& g, const TriangleHit& hit) {
+    if (hit.object < 0) return;
+    const Object& o = g.objects[hit.object];
+    const uvec3& t = o.triangles[hit.triangle];
+    for (int i = 0; i < 3; ++i) {
+        __builtin_prefetch(&o.positions[t[i]]);
+        if (!o.normals.empty()) __builtin_prefetch(&o.normals[t[i]]);
+    }
+}
+
+}  // namespace
+
 void Accel::closest(const RayLanes& rays, const Mask8& wanted, const AlphaLookup& alpha,
                     const std::array<std::uint64_t, lane_count>& coins, HitLanes& hits) const {
     const QuadLanes origins = quads_of(rays.origin), directions = quads_of(rays.direction);
     Query q = make_query(alpha);
+    TriangleHit previous;
     for_each_lane(wanted, [&](int k) {
         if (log_) write(*log_, {rays[k], true});
         q.coin = coins[k];
         hits[k] = trace_closest(embree_->scene, q, {origins[k], directions[k]}, rays.tfar[k]);
+        prefetch_triangle(*geometry_, hits[k]);
+        prefetch_corners(*geometry_, previous);
+        previous = hits[k];
     });
+    prefetch_corners(*geometry_, previous);
 }
 
 float Accel::transmittance(const Ray& ray, const AlphaLookup& alpha) const {
