@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "math/huge_pages.h"
 
 namespace midway {
 
@@ -58,6 +59,7 @@ struct ZeroedAllocator {
         if (n > std::numeric_limits<size_t>::max() / sizeof(T)) throw std::bad_alloc();
         void* p = std::calloc(n, sizeof(T));
         if (!p) throw std::bad_alloc();
+        ask_for_huge_pages(p, n * sizeof(T));
         return static_cast<T*>(p);
     }
     void deallocate(T* p, size_t) { std::free(p); }

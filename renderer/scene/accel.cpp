@@ -174,7 +174,7 @@ Accel::Accel(std::shared_ptr<const Geometry> geometry, bool ask_all)
     const auto embree = std::make_shared<Embree>();
     embree_ = embree;
     Embree& e = *embree;
-    e.device = rtcNewDevice(nullptr);
+    e.device = rtcNewDevice("hugepages=1");
     if (!e.device) throw std::runtime_error("Embree cannot start (device); check the processor");
     e.scene = rtcNewScene(e.device);
     // High quality was not deterministic; the robust flag closes the edges between triangles.
