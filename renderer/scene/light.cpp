@@ -230,20 +230,55 @@ void next_event_punctual(const Scene& s, double picked, const vec3& reference, N
 
 namespace light_parts {
 
-LightPick pick_light(const Scene& s, const vec3& reference, double u) {
-    LightPick p;
-    if (s.infinite_lights.empty()) {
-        p.light = s.light_tree.sample(reference, u, p.probability);
-        return p;
-    }
+namespace {
+
+// One of the lights at infinity, or else the place in the tree and the probability of asking it.
+struct GroupPick {
+    int infinite_light = -1;
+    double inside = 0;
+    double probability = 1;
+};
+GroupPick pick_group(const Scene& s, double u) {
+    if (s.infinite_lights.empty()) return {-1, u, 1};
     const int group = find_interval(s.next_event_group, u);
-    const double of_group = s.next_event_group.probability(group);
-    if (group > 0) return {s.infinite_lights[static_cast<size_t>(group) - 1], of_group};
-    const double inside =
-        std::clamp((u - s.next_event_group.cdf[0]) / of_group, 0.0, 1 - 0x1p-53);
-    p.light = s.light_tree.sample(reference, inside, p.probability);
-    p.probability *= of_group;
+    const double p = s.next_event_group.probability(group);
+    if (group > 0) return {s.infinite_lights[static_cast<size_t>(group) - 1], 0, p};
+    return {-1, std::clamp((u - s.next_event_group.cdf[0]) / p, 0.0, 1 - 0x1p-53), p};
+}
+
+}  // namespace
+
+LightPick pick_light(const Scene& s, const vec3& reference, double u) {
+    const GroupPick g = pick_group(s, u);
+    if (g.infinite_light >= 0) return {g.infinite_light, g.probability};
+    LightPick p;
+    p.light = s.light_tree.sample(reference, g.inside, p.probability);
+    p.probability *= g.probability;
     return p;
+}
+
+std::array<LightPick, lane_count> pick_lights(const Scene& s, const Mask8& wanted,
+                                              const Vec3x8& reference, const Double8& u) {
+    std::array<LightPick, lane_count> picks;
+    Mask8 by_tree{};
+    Double8 inside{};
+    for_each_lane(wanted, [&](int k) {
+        const GroupPick g = pick_group(s, u[k]);
+        picks[k] = {g.infinite_light, g.probability};
+        inside.set(k, g.inside);
+        if (g.infinite_light < 0) by_tree[k] = -1;
+    });
+    LightTree::Picks of_tree;
+    s.light_tree.sample(reference, inside, by_tree, of_tree);
+    for_each_lane(by_tree, [&](int k) {
+        picks[k].light = of_tree.light[k];
+        picks[k].probability *= of_tree.probability[k];
+        // What is read of a lamp next.
+        __builtin_prefetch(&s.lights[of_tree.light[k]]);
+        if (static_cast<size_t>(of_tree.light[k]) < s.lamps->size())
+            __builtin_prefetch(&(*s.lamps)[of_tree.light[k]]);
+    });
+    return picks;
 }
 
 vec3 area_emission(const Scene& s, int light, const vec2& b) {

@@ -177,12 +177,11 @@ NextEventLanes sample_next_events(const Scene& s, const Mask8& wanted, const Vec
         picks.fill({only, 1});
         spread_lamp(s, only, u.x, u.y, lamps);
     } else {
+        picks = pick_lights(s, wanted, reference, u.pick);
         for_each_lane(wanted, [&](int k) {
-            const vec3 at = reference[k];
-            picks[k] = pick_light(s, at, u.pick[k]);
             probability.set(k, picks[k].probability);
             const bool area = s.lights[picks[k].light].kind == LightKind::area;
-            if (area && !is_near(s, picks[k].light, at))
+            if (area && !is_near(s, picks[k].light, reference[k]))
                 gather_lamp(s, picks[k].light, {u.x[k], u.y[k]}, k, lamps);
             else
                 others[k] = -1;

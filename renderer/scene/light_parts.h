@@ -2,6 +2,7 @@
 // it.
 #pragma once
 
+#include "math/lanes.h"
 #include "scene/scene.h"
 
 namespace midway::light_parts {
@@ -12,6 +13,8 @@ struct LightPick {
     double probability = 0;
 };
 LightPick pick_light(const Scene& scene, const vec3& reference, double u);
+std::array<LightPick, lane_count> pick_lights(const Scene& scene, const Mask8& wanted,
+                                              const Vec3x8& reference, const Double8& u);
 
 // Whether next event draws a lamp by solid angle.
 inline bool is_near(const Scene& s, int light, const vec3& reference) {

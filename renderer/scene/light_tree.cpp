@@ -242,66 +242,96 @@ float LightTree::weigh(const Node& n, const vec3& reference, Node::Lane& shares)
     return sum_of(shares);
 }
 
+LightTree::Descent LightTree::along(int light, const vec3& reference) const {
+    Descent d{.reference = reference, .turns = turns_[light]};
+    if (d.turns <= 1) d.node = ~light;
+    return d;
+}
+
+LightTree::Descent LightTree::begin(const vec3& reference, double u) const {
+    if (u < share_by_weight)
+        return along(find_interval(by_weight_, u / share_by_weight), reference);
+    return {.reference = reference, .u = (u - share_by_weight) / (1 - share_by_weight)};
+}
+
+bool LightTree::step(Descent& d) const {
+    if (d.node < 0) return false;
+    const Node& node = nodes_[d.node];
+    Node::Lane shares;
+    const double sum = weigh(node, d.reference, shares);
+    if (d.turns != 0) {
+        const std::uint64_t k = d.turns & 7;
+        d.probability *= shares[k] / sum;
+        d.turns >>= 3;
+        d.node = node.child[k];
+        return d.node > 0;
+    }
+    // All lanes are compared, since nobody foresees where a search would end.
+    const double left_of_all = d.u * sum;
+    std::array<double, width> begin;
+    double end = 0;
+    for (int k = 0; k < width; ++k) {
+        begin[k] = end;
+        end += shares[k];
+    }
+    int chosen = 0;
+    for (int k = 1; k < width; ++k) chosen += begin[k] <= left_of_all;
+    while (!(shares[chosen] > 0)) --chosen;  // past the end by rounding
+    const double left = left_of_all - begin[chosen];
+    d.probability *= shares[chosen] / sum;
+    d.u = std::clamp(left / shares[chosen], 0.0, 1 - 0x1p-53);
+    d.node = node.child[chosen];
+    return d.node > 0;
+}
+
+double LightTree::probability_of(const Descent& d) const {
+    return share_by_weight * by_weight_.probability(~d.node) +
+           (1 - share_by_weight) * d.probability;
+}
+
 int LightTree::sample(const vec3& reference, double u, double& probability) const {
     if (only_ >= 0 || nodes_.empty()) {
         probability = 1;
         return only_;
     }
-    int light = -1;
-    double way = 0;
-    if (u < share_by_weight) {
-        light = find_interval(by_weight_, u / share_by_weight);
-        way = way_probability(light, reference);
-    } else {
-        light = descend(reference, (u - share_by_weight) / (1 - share_by_weight), way);
+    Descent d = begin(reference, u);
+    while (step(d)) {
     }
-    probability = share_by_weight * by_weight_.probability(light) + (1 - share_by_weight) * way;
-    return light;
+    probability = probability_of(d);
+    return ~d.node;
+}
+
+void LightTree::sample(const Vec3x8& reference, const Double8& u, const Mask8& wanted,
+                       Picks& picks) const {
+    if (only_ >= 0 || nodes_.empty()) {
+        picks.light.fill(only_);
+        picks.probability.fill(1);
+        return;
+    }
+    std::array<Descent, lane_count> descents;
+    for_each_lane(wanted, [&](int k) { descents[k] = begin(reference[k], u[k]); });
+    for (Mask8 left = wanted; any(left);)
+        for_each_lane(left, [&](int k) {
+            if (!step(descents[k])) {
+                left[k] = 0;
+                return;
+            }
+            const char* next = reinterpret_cast<const char*>(&nodes_[descents[k].node]);
+            for (size_t line = 0; line < sizeof(Node); line += 64) __builtin_prefetch(next + line);
+        });
+    for_each_lane(wanted, [&](int k) {
+        picks.light[k] = ~descents[k].node;
+        picks.probability[k] = probability_of(descents[k]);
+    });
 }
 
 double LightTree::probability(int light, const vec3& reference) const {
     if (turns_[light] == 0) return 0;
     if (only_ >= 0) return 1;
-    return share_by_weight * by_weight_.probability(light) +
-           (1 - share_by_weight) * way_probability(light, reference);
-}
-
-int LightTree::descend(const vec3& reference, double u, double& probability) const {
-    probability = 1;
-    std::int32_t node = 0;
-    do {
-        Node::Lane shares;
-        const double sum = weigh(nodes_[node], reference, shares);
-        // All lanes are compared, since nobody foresees where a search would end.
-        const double left_of_all = u * sum;
-        std::array<double, width> begin;
-        double end = 0;
-        for (int k = 0; k < width; ++k) {
-            begin[k] = end;
-            end += shares[k];
-        }
-        int chosen = 0;
-        for (int k = 1; k < width; ++k) chosen += begin[k] <= left_of_all;
-        while (!(shares[chosen] > 0)) --chosen;  // past the end by rounding
-        const double left = left_of_all - begin[chosen];
-        probability *= shares[chosen] / sum;
-        u = std::clamp(left / shares[chosen], 0.0, 1 - 0x1p-53);
-        node = nodes_[node].child[chosen];
-    } while (node > 0);
-    return ~node;
-}
-
-double LightTree::way_probability(int light, const vec3& reference) const {
-    double probability = 1;
-    std::int32_t node = 0;
-    for (std::uint64_t turns = turns_[light]; turns > 1; turns >>= 3) {
-        Node::Lane shares;
-        const double sum = weigh(nodes_[node], reference, shares);
-        const std::uint64_t k = turns & 7;
-        probability *= shares[k] / sum;
-        node = nodes_[node].child[k];
+    Descent d = along(light, reference);
+    while (step(d)) {
     }
-    return probability;
+    return probability_of(d);
 }
 
 }  // namespace midway

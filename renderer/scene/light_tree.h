@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "math/distribution.h"
+#include "math/lanes.h"
 
 namespace midway {
 
@@ -38,6 +39,14 @@ class LightTree {
     // u in [0, 1) with as many bits as there are lights to tell apart. -1 where the tree is empty.
     int sample(const vec3& reference, double u, double& probability) const;
     double probability(int light, const vec3& reference) const;
+
+    // sample() for eight places, one in each lane that is wanted. They go down the tree side by
+    // side, so that the memory is asked for eight nodes at once and not for one after the other.
+    struct Picks {
+        std::array<int, lane_count> light;
+        std::array<double, lane_count> probability;
+    };
+    void sample(const Vec3x8& reference, const Double8& u, const Mask8& wanted, Picks& picks) const;
 
     // The one light to take, where there are no others; -1: there are none, or several.
     int only() const { return only_; }
@@ -63,9 +72,18 @@ class LightTree {
     // What each child counts for at a place; returns the sum, above zero.
     static float weigh(const Node& node, const vec3& reference, Node::Lane& shares);
 
-    // Down the tree.
-    int descend(const vec3& reference, double u, double& probability) const;
-    double way_probability(int light, const vec3& reference) const;
+    // On the way down the tree: to a place that u chooses, or along the turns to a light.
+    struct Descent {
+        vec3 reference{0};
+        double u = 0;
+        double probability = 1;
+        std::uint64_t turns = 0;  // that are left, as in turns_; 0: u chooses
+        std::int32_t node = 0;    // ~light where it has ended
+    };
+    Descent begin(const vec3& reference, double u) const;
+    bool step(Descent& d) const;  // false: it has ended
+    double probability_of(const Descent& d) const;
+    Descent along(int light, const vec3& reference) const;
 
     int only_ = -1;
     Distribution1D by_weight_;
