@@ -21,15 +21,15 @@ void trace_rays(const Estimator& e, WalkLanes& w) {
 // Eq. (22)-(25), (34), (37), (38): sums at vertex 1.
 void start_light_sums(const Estimator& e, const Vec3x8& position, const Float8& cos_in,
                       const Float8& distance2, WalkLanes& w) {
+    const auto ratios =
+        next_event_ratios(*e.scene, w.surface, w.lights, position, w.cos_previous, distance2);
     for_each_lane(w.surface, [&](int k) {
         const bool infinite = w.infinite_light[k], hittable = w.hittable_light[k];
         mis::LightStart l;
         l.pdf_origin = w.light_origin[k];
         l.pdf_a = w.light_leave[k] * double(cos_in[k]) / (infinite ? 1 : double(distance2[k]));
         l.g_light = infinite ? 1 : w.cos_previous[k] / double(distance2[k]);
-        l.next_event_ratio =
-            next_event_ratio(*e.scene, w.lights[k],
-                             {position[k], w.cos_previous[k], distance2[k]});
+        l.next_event_ratio = ratios[k];
         l.hittable = hittable && e.weighed[0].emitter_hit;
         const mis::State s = mis::start_light(mis::Power2<>{}, l);
         w.mis.vcm.set(k, s.vcm);

@@ -53,10 +53,15 @@ double group_probability(const Scene& s, int light) {
     return s.next_event_group.probability(static_cast<int>(i - s.infinite_lights.begin()) + 1);
 }
 
+// Of a light in the tree, of which its lamp is picked with probability `in_tree`.
+double tree_probability(const Scene& s, int light, double in_tree) {
+    return s.next_event_group.probability(0) * share_of_lamp(*s.lamps, light) * in_tree;
+}
+
 double next_event_probability(const Scene& s, int light, const vec3& reference) {
     if (is_infinite(s.lights[light].kind)) return group_probability(s, light);
-    return s.next_event_group.probability(0) * share_of_lamp(*s.lamps, light) *
-           s.light_tree.probability(first_of_lamp(*s.lamps, light), reference);
+    return tree_probability(
+        s, light, s.light_tree.probability(first_of_lamp(*s.lamps, light), reference));
 }
 
 TriangleFrom seen_from(const FlatTriangle& t, const vec3& reference) {
@@ -281,6 +286,31 @@ std::array<LightPick, lane_count> pick_lights(const Scene& s, const Mask8& wante
     return picks;
 }
 
+double ratio_of_picks(const Scene& s, int light, const LightEdge& k, double probability) {
+    const Light& l = s.lights[light];
+    const double picks = probability / l.emission_pick;
+    return l.kind == LightKind::area ? picks * next_event_over_even(s, light, k) : picks;
+}
+
+std::array<double, lane_count> next_event_probabilities(
+    const Scene& s, const std::array<int, lane_count>& lights, const Vec3x8& reference,
+    const Mask8& wanted) {
+    std::array<double, lane_count> p{};
+    std::array<int, lane_count> lamps{};
+    Mask8 by_tree{};
+    for_each_lane(wanted, [&](int k) {
+        if (is_infinite(s.lights[lights[k]].kind)) {
+            p[k] = group_probability(s, lights[k]);
+            return;
+        }
+        lamps[k] = first_of_lamp(*s.lamps, lights[k]);
+        by_tree[k] = -1;
+    });
+    const auto in_tree = s.light_tree.probabilities(lamps, reference, by_tree);
+    for_each_lane(by_tree, [&](int k) { p[k] = tree_probability(s, lights[k], in_tree[k]); });
+    return p;
+}
+
 vec3 area_emission(const Scene& s, int light, const vec2& b) {
     const Material& m = s.materials[(*s.lamps)[light].material];
     if (emits_evenly(m)) return m.emission;
@@ -336,9 +366,8 @@ std::optional<NextEventSample> sample_next_event(const Scene& s, const vec3& ref
 }
 
 double next_event_ratio(const Scene& s, int light, const LightEdge& k) {
-    const Light& l = s.lights[light];
-    const double picks = next_event_probability(s, light, k.reference) / l.emission_pick;
-    return l.kind == LightKind::area ? picks * next_event_over_even(s, light, k) : picks;
+    const double picks = next_event_probability(s, light, k.reference);
+    return light_parts::ratio_of_picks(s, light, k, picks);
 }
 
 std::optional<EmitterHit> emitter_hit(const Scene& s, const SurfacePoint& p, const vec3& towards,

@@ -221,4 +221,16 @@ EmissionLanes sample_emissions(const Scene& s, const Mask8& wanted, const Emissi
     return e;
 }
 
+std::array<double, lane_count> next_event_ratios(const Scene& s, const Mask8& wanted,
+                                                 const std::array<int, lane_count>& lights,
+                                                 const Vec3x8& reference, const Float8& cos_theta,
+                                                 const Float8& distance_squared) {
+    auto ratios = next_event_probabilities(s, lights, reference, wanted);
+    for_each_lane(wanted, [&](int k) {
+        const LightEdge edge{reference[k], cos_theta[k], distance_squared[k]};
+        ratios[k] = ratio_of_picks(s, lights[k], edge, ratios[k]);
+    });
+    return ratios;
+}
+
 }  // namespace midway

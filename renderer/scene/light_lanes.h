@@ -41,4 +41,10 @@ struct EmissionNumbers8 {
 };
 EmissionLanes sample_emissions(const Scene& scene, const Mask8& wanted, const EmissionNumbers8& u);
 
+// next_event_ratio() of each lane's light; the edge's places and cosines, and squared lengths.
+std::array<double, lane_count> next_event_ratios(const Scene& scene, const Mask8& wanted,
+                                                 const std::array<int, lane_count>& lights,
+                                                 const Vec3x8& reference, const Float8& cos_theta,
+                                                 const Float8& distance_squared);
+
 }  // namespace midway

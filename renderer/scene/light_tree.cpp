@@ -301,15 +301,7 @@ int LightTree::sample(const vec3& reference, double u, double& probability) cons
     return ~d.node;
 }
 
-void LightTree::sample(const Vec3x8& reference, const Double8& u, const Mask8& wanted,
-                       Picks& picks) const {
-    if (only_ >= 0 || nodes_.empty()) {
-        picks.light.fill(only_);
-        picks.probability.fill(1);
-        return;
-    }
-    std::array<Descent, lane_count> descents;
-    for_each_lane(wanted, [&](int k) { descents[k] = begin(reference[k], u[k]); });
+void LightTree::go_down(std::array<Descent, lane_count>& descents, const Mask8& wanted) const {
     for (Mask8 left = wanted; any(left);)
         for_each_lane(left, [&](int k) {
             if (!step(descents[k])) {
@@ -319,10 +311,39 @@ void LightTree::sample(const Vec3x8& reference, const Double8& u, const Mask8& w
             const char* next = reinterpret_cast<const char*>(&nodes_[descents[k].node]);
             for (size_t line = 0; line < sizeof(Node); line += 64) __builtin_prefetch(next + line);
         });
+}
+
+void LightTree::sample(const Vec3x8& reference, const Double8& u, const Mask8& wanted,
+                       Picks& picks) const {
+    if (only_ >= 0 || nodes_.empty()) {
+        picks.light.fill(only_);
+        picks.probability.fill(1);
+        return;
+    }
+    std::array<Descent, lane_count> descents;
+    for_each_lane(wanted, [&](int k) { descents[k] = begin(reference[k], u[k]); });
+    go_down(descents, wanted);
     for_each_lane(wanted, [&](int k) {
         picks.light[k] = ~descents[k].node;
         picks.probability[k] = probability_of(descents[k]);
     });
+}
+
+std::array<double, lane_count> LightTree::probabilities(
+    const std::array<int, lane_count>& lights, const Vec3x8& reference, const Mask8& wanted) const {
+    std::array<double, lane_count> p{};
+    Mask8 in_tree{};
+    std::array<Descent, lane_count> descents;
+    for_each_lane(wanted, [&](int k) {
+        if (turns_[lights[k]] == 0) return;
+        p[k] = 1;
+        if (only_ >= 0) return;
+        descents[k] = along(lights[k], reference[k]);
+        in_tree[k] = -1;
+    });
+    go_down(descents, in_tree);
+    for_each_lane(in_tree, [&](int k) { p[k] = probability_of(descents[k]); });
+    return p;
 }
 
 double LightTree::probability(int light, const vec3& reference) const {

@@ -48,6 +48,11 @@ class LightTree {
     };
     void sample(const Vec3x8& reference, const Double8& u, const Mask8& wanted, Picks& picks) const;
 
+    // probability() of a light for each of eight places.
+    std::array<double, lane_count> probabilities(const std::array<int, lane_count>& lights,
+                                                 const Vec3x8& reference,
+                                                 const Mask8& wanted) const;
+
     // The one light to take, where there are no others; -1: there are none, or several.
     int only() const { return only_; }
 
@@ -83,6 +88,7 @@ class LightTree {
     Descent begin(const vec3& reference, double u) const;
     bool step(Descent& d) const;  // false: it has ended
     double probability_of(const Descent& d) const;
+    void go_down(std::array<Descent, lane_count>& descents, const Mask8& wanted) const;
     Descent along(int light, const vec3& reference) const;
 
     int only_ = -1;
