@@ -25,8 +25,8 @@ ALLOWED = {
     ("renderer/math/student.cpp", "< 1e-15"): "relative: convergence of a continued fraction",
     ("renderer/math/student.cpp", "1e-14 * high"): "relative: convergence of a bisection",
     ("renderer/math/student.cpp", "1e-300, 1 - 1e-16"): "a probability kept inside of (0, 1)",
-    ("renderer/math/warp.h", "std::max(1e-12f, 1 -"): "squared cosine: a sample exactly on the "
-                                                      "horizon would have density 0",
+    ("renderer/math/warp.h", "least_squared_cosine = 1e-12f"): "squared cosine: a sample exactly on "
+                                                              "the horizon would have density 0",
     ("renderer/math/warp.h", "3.59542907e-05f"): "coefficients of a sine",
     ("renderer/math/warp.h", "3.52979722e-06f"): "coefficients of a cosine",
     ("renderer/shading/albedo_table.cpp", "1e-3f, m / float(cosines"): "a cosine: the table's row "

@@ -88,8 +88,7 @@ FoundLanes hit_lights(const Estimator& e, const WalkLanes& w, const VertexLanes&
         const SurfacePoint p = surface_point(s.geometry->objects[hit.object], hit);
         add(k, emitter_hit(s, p, v.to_previous[k], w.previous_position[k]));
     });
-    if (s.sky_light >= 0)
-        for_each_lane(w.sky, [&](int k) { add(k, sky_hit(s, w.direction[k])); });
+    if (s.sky_light >= 0) for_each_lane(w.sky, [&](int k) { add(k, sky_hit(s, w.direction[k])); });
     return found;
 }
 
@@ -118,8 +117,7 @@ FoundLanes connect_to_lights(const Estimator& e, const VertexLanes& v,
     if constexpr (F.path_tracer) {
         c.weight = mis::path_tracer::next_event(pdfs);
     } else {
-        const Double8 pdf_a =
-            to_double(n.leave) * cos_v / distance2 * all_lanes(e.share_of(edges));
+        const Double8 pdf_a = to_double(n.leave) * cos_v / distance2 * all_lanes(e.share_of(edges));
         c.weight = mis::next_event(
             v.mis, {pdf_a, to_double(f.pdf_rev_w), count_towards_camera(e, c.strategy)}, pdfs);
     }
@@ -182,8 +180,8 @@ SplatLanes connect_to_camera(const Estimator& e, const VertexLanes& l,
     const Float8 d2 = length_squared(d);
     const Vec3x8 direction = d / sqrt(d2);
     const Float8 along = dot(-direction, all_lanes(e.camera.forward));
-    c.lanes = l.connectible & (d2 > 0) & may_scatter(p.bsdf, l.to_previous, direction) &
-              (along > 0);
+    c.lanes =
+        l.connectible & (d2 > 0) & may_scatter(p.bsdf, l.to_previous, direction) & (along > 0);
     Float8 factor{};
     for_each_lane(c.lanes, [&](int k) {
         const auto film = film_position(e.camera, lens[k], -direction[k]);
@@ -197,8 +195,8 @@ SplatLanes connect_to_camera(const Estimator& e, const VertexLanes& l,
         eval_bsdfs(p.bsdf, c.lanes, l.to_previous, direction, Transport::importance);
     c.lanes &= ~is_black(f.f);
     // Density per area at the vertex of one camera sample per pixel area: also the importance.
-    const Double8 pdf_a =
-        to_double(camera_pdf_w(e.camera, along)) * to_double(abs_dot(p.bsdf.ng, direction)) / to_double(d2);
+    const Double8 pdf_a = to_double(camera_pdf_w(e.camera, along)) *
+                          to_double(abs_dot(p.bsdf.ng, direction)) / to_double(d2);
     c.value = l.throughput * f.f *
               to_float(pdf_a * to_double(factor) / all_lanes(double(e.light_subpaths)));
     e.at(Work::weights);

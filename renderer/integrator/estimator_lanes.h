@@ -83,9 +83,9 @@ void record_found(const Estimator& e, const SplatLanes& s, Record& record) {
 
 // As trace_light_subpath(): lane k walks subpath numbers[k].
 template <Facts F, class Record>
-void trace_light_subpaths(const Estimator& e,
-                          const std::array<std::uint64_t, lane_count>& numbers, std::uint64_t pass,
-                          bool keep, EstimatorLanes& s, Record& record, RayCounts& rays) {
+void trace_light_subpaths(const Estimator& e, const std::array<std::uint64_t, lane_count>& numbers,
+                          std::uint64_t pass, bool keep, EstimatorLanes& s, Record& record,
+                          RayCounts& rays) {
     WalkLanes& w = s.walk;
     for (const std::uint64_t n : numbers) rays.light_paths += n < e.light_subpaths;
     start_light_walks(e, numbers, pass, w);
@@ -153,7 +153,8 @@ bool estimate_lanes(const Estimator& e, const PixelGroup& g, std::uint64_t pass,
             };
             for (bool first = true; some_left(); first = false) {
                 if (!go_on()) return false;
-                trace_light_subpaths<F>(e, numbers, pass, first && e.families.connection, s, record, rays);
+                trace_light_subpaths<F>(e, numbers, pass, first && e.families.connection, s, record,
+                                        rays);
                 for (std::uint64_t& n : numbers) n += static_cast<std::uint64_t>(e.crop.area());
             }
         }

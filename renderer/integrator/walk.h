@@ -179,8 +179,8 @@ struct Walk {
     VertexNumbers numbers;
 };
 
-// What decides about transparent surfaces on the walk's next edge: of a walk's edges, all different;
-// who tosses it hashes it.
+// What decides about transparent surfaces on the walk's next edge: of a walk's edges, all
+// different; who tosses it hashes it.
 inline std::uint64_t walk_coin(const SampleKey& key, int index) {
     return key.key + key.reversed * 0xbf58476d1ce4e5b9ull +
            std::uint64_t(index) * 0x94d049bb133111ebull;

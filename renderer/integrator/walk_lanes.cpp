@@ -42,7 +42,7 @@ void start_sums(const Estimator& e, const Vec3x8& position, const Float8& cos_in
                 const Float8& distance2, WalkLanes& w) {
     w.mis = {all_lanes(0.0), all_lanes(0.0)};
     if constexpr (F.path_tracer) return;
-    if (w.transport == Transport::importance) 
+    if (w.transport == Transport::importance)
         return start_light_sums(e, position, cos_in, distance2, w);
     const Double8 pdf_a = to_double(w.pdf_fwd_w) * to_double(cos_in) / to_double(distance2);
     w.mis.vcm = mis::square(all_lanes(double(e.light_subpaths)) / pdf_a);
@@ -55,8 +55,7 @@ void advance_sums(const Estimator& e, WalkLanes& w, const Double8& g_fwd, const 
         w.mis = mis::path_tracer::advance(pdf_fwd_a, w.delta);
     } else {
         const double n = e.count(previous_strategy(w.transport, w.index), 0);
-        w.mis = mis::advance(w.mis,
-                                    {pdf_fwd_a, g_rev, to_double(w.pdf_rev_w), w.delta, n});
+        w.mis = mis::advance(w.mis, {pdf_fwd_a, g_rev, to_double(w.pdf_rev_w), w.delta, n});
     }
 }
 
@@ -79,8 +78,8 @@ void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, W
     const Float8 columns = Float8{0, 1, 2, 3, 4, 5, 6, 7} + float(x0);
     const std::array<Float8, 2> offset = sample_filters(e.filter, u[0], u[1]);
     w.origin = lens_points(e.camera, every_lane, u[2], u[3]);
-    w.direction = camera_directions(e.camera, w.origin, columns + 0.5f + offset[0],
-                                    (y + 0.5f) + offset[1]);
+    w.direction =
+        camera_directions(e.camera, w.origin, columns + 0.5f + offset[0], (y + 0.5f) + offset[1]);
     w.pdf_fwd_w = camera_pdf_w(e.camera, dot(w.direction, all_lanes(e.camera.forward)));
     w.previous_position = w.origin;
 }
@@ -148,16 +147,15 @@ void extend(const Estimator& e, WalkLanes& w, StoredVertex& vertex) {
                         to_double(w.cos_previous) / to_double(d2));
     v.mis = w.mis;
     e.at(Work::sampling);
-    w.numbers =
-        sample_4d_pairs(w.keys, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index));
+    w.numbers = sample_4d_pairs(w.keys, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index));
     e.at(Work::shading);
 }
 
 void scatter(const Estimator& e, const VertexLanes& vertex, WalkLanes& w) {
     const SurfaceLanes& p = vertex.surface;
     const auto& u = w.numbers.first;
-    const BsdfSample8 s = sample_bsdfs(p.bsdf, w.surface, vertex.to_previous, {u[0], u[1], u[2]},
-                                       w.transport);
+    const BsdfSample8 s =
+        sample_bsdfs(p.bsdf, w.surface, vertex.to_previous, {u[0], u[1], u[2]}, w.transport);
     w.active = w.surface & s.drawn;
     w.throughput = w.throughput * s.weight;
     // Refraction scales radiance until the path leaves the glass again; survival ignores that.

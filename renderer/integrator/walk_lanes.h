@@ -45,10 +45,10 @@ struct WalkLanes {
     Mask8 infinite_light{}, hittable_light{};
 
     int index = 0;
-    HitLanes hits;   // of the rays traced last
-    Mask8 surface{};  // lanes that stand on a surface
-    Mask8 sky{};      // lanes whose ray left the scene just now
-    mis::State8 mis;  // at the vertices reached last, or at infinity
+    HitLanes hits;        // of the rays traced last
+    Mask8 surface{};      // lanes that stand on a surface
+    Mask8 sky{};          // lanes whose ray left the scene just now
+    mis::State8 mis;      // at the vertices reached last, or at infinity
     NumberLanes numbers;  // as VertexNumbers: scatter, connect
 };
 

@@ -158,8 +158,8 @@ template <int first>
 std::array<Float8, 4> columns(const std::array<Float8, lane_count>& rows) {
     // Rows k and k + 4 side by side.
     const auto half = [&](int k) {
-        return __builtin_shufflevector(rows[k], rows[k + 4], first, first + 1, first + 2,
-                                       first + 3, first + 8, first + 9, first + 10, first + 11);
+        return __builtin_shufflevector(rows[k], rows[k + 4], first, first + 1, first + 2, first + 3,
+                                       first + 8, first + 9, first + 10, first + 11);
     };
     const auto low = [](const Float8& a, const Float8& b) {
         return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);

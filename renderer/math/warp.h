@@ -36,13 +36,14 @@ inline vec2 square_to_disc(const vec2& u) {
 }
 
 // Cosine-weighted about +z (Malley's method); z is kept above zero so that the density is too.
+inline constexpr float least_squared_cosine = 1e-12f;
 inline Vec3x8 square_to_cosine_hemisphere(const Float8& u, const Float8& v) {
     const DiscPoint<Float8> d = square_to_disc(u, v);
-    return {d.x, d.y, sqrt(max(all_lanes(1e-12f), 1.0f - d.x * d.x - d.y * d.y))};
+    return {d.x, d.y, sqrt(max(all_lanes(least_squared_cosine), 1.0f - d.x * d.x - d.y * d.y))};
 }
 inline vec3 square_to_cosine_hemisphere(const vec2& u) {
     const vec2 d = square_to_disc(u);
-    return {d.x, d.y, std::sqrt(std::max(1e-12f, 1 - d.x * d.x - d.y * d.y))};
+    return {d.x, d.y, std::sqrt(std::max(least_squared_cosine, 1 - d.x * d.x - d.y * d.y))};
 }
 inline float cosine_hemisphere_pdf_w(float cos_theta) { return cos_theta * inv_pi; }
 

@@ -176,8 +176,8 @@ class FilmRecord {
         FixedRgb value;
     };
 
-    // Weighted values of the lanes that nothing is to be done about but to add them: finite, neither
-    // clamped nor so small that recorded_fixed() lifts them, and watched by nobody.
+    // Weighted values of the lanes that nothing is to be done about but to add them: finite,
+    // neither clamped nor so small that recorded_fixed() lifts them, and watched by nobody.
     struct PlainValues {
         Mask8 lanes{};
         Vec3x8 value;
@@ -191,9 +191,9 @@ class FilmRecord {
         const auto above = [&](const Float8& v, const Float8& bare) {
             return (v >= least) | (bare == 0);
         };
-        p.lanes = f.lanes & is_finite(f.value) & is_finite(weight) &
-                  above(p.value.x, f.value.x) & above(p.value.y, f.value.y) &
-                  above(p.value.z, f.value.z) & ~(max_component(p.value) > r.clamp);
+        p.lanes = f.lanes & is_finite(f.value) & is_finite(weight) & above(p.value.x, f.value.x) &
+                  above(p.value.y, f.value.y) & above(p.value.z, f.value.z) &
+                  ~(max_component(p.value) > r.clamp);
         return p;
     }
 

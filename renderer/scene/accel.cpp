@@ -63,8 +63,8 @@ static_assert(offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, dir_x) == 16 &&
               offsetof(RTCRay, time) == 28 && offsetof(RTCRay, tfar) == 32 &&
               alignof(RTCRay) == 16);
 
-// What Embree reads of a ray, in the widths that it reads it in: it would otherwise wait for several
-// narrow stores, a tenth of a path tracer's time.
+// What Embree reads of a ray, in the widths that it reads it in: it would otherwise wait for
+// several narrow stores, a tenth of a path tracer's time.
 struct RayQuads {
     Quad origin;     // ..., tnear
     Quad direction;  // ..., time
@@ -96,9 +96,8 @@ QuadLanes quads_of(const Vec3x8& v) {
     const auto upper = [](const Float8& a, const Float8& b) {
         return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
     };
-    return std::bit_cast<QuadLanes>(std::array<Float8, 4>{lower(xy, zw), upper(xy, zw),
-                                                          lower(xy_next, zw_next),
-                                                          upper(xy_next, zw_next)});
+    return std::bit_cast<QuadLanes>(std::array<Float8, 4>{
+        lower(xy, zw), upper(xy, zw), lower(xy_next, zw_next), upper(xy_next, zw_next)});
 }
 
 void fill_ray(RTCRay& r, const RayQuads& q, float tfar) {

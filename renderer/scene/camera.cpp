@@ -43,9 +43,9 @@ Vec3x8 lens_points(const Camera& c, const Mask8& wanted, const Float8& u, const 
 }
 
 Vec3x8 camera_directions(const Camera& c, const Vec3x8& lens, const Float8& x, const Float8& y) {
-    const Vec3x8 through_center =
-        all_lanes(c.forward) + all_lanes(c.right) * ((x - 0.5f * c.width) * c.pixel_size) +
-        all_lanes(c.up) * ((0.5f * c.height - y) * c.pixel_size);
+    const Vec3x8 through_center = all_lanes(c.forward) +
+                                  all_lanes(c.right) * ((x - 0.5f * c.width) * c.pixel_size) +
+                                  all_lanes(c.up) * ((0.5f * c.height - y) * c.pixel_size);
     if (c.lens_radius == 0) return normalize(through_center);
     return normalize(all_lanes(c.position) + through_center * all_lanes(c.focus_distance) - lens);
 }

@@ -60,8 +60,8 @@ double tree_probability(const Scene& s, int light, double in_tree) {
 
 double next_event_probability(const Scene& s, int light, const vec3& reference) {
     if (is_infinite(s.lights[light].kind)) return group_probability(s, light);
-    return tree_probability(
-        s, light, s.light_tree.probability(first_of_lamp(*s.lamps, light), reference));
+    return tree_probability(s, light,
+                            s.light_tree.probability(first_of_lamp(*s.lamps, light), reference));
 }
 
 TriangleFrom seen_from(const FlatTriangle& t, const vec3& reference) {
@@ -292,9 +292,10 @@ double ratio_of_picks(const Scene& s, int light, const LightEdge& k, double prob
     return l.kind == LightKind::area ? picks * next_event_over_even(s, light, k) : picks;
 }
 
-std::array<double, lane_count> next_event_probabilities(
-    const Scene& s, const std::array<int, lane_count>& lights, const Vec3x8& reference,
-    const Mask8& wanted) {
+std::array<double, lane_count> next_event_probabilities(const Scene& s,
+                                                        const std::array<int, lane_count>& lights,
+                                                        const Vec3x8& reference,
+                                                        const Mask8& wanted) {
     std::array<double, lane_count> p{};
     std::array<int, lane_count> lamps{};
     Mask8 by_tree{};

@@ -214,8 +214,7 @@ EmissionLanes sample_emissions(const Scene& s, const Mask8& wanted, const Emissi
     }
     if (any(wanted & ~others)) emit_from_lamps(lamps, wanted & ~others, u[2], u[3], e);
     for_each_lane(others, [&](int k) {
-        const auto one =
-            sample_emission(s, {n.pick[k], {u[0][k], u[1][k]}, {u[2][k], u[3][k]}});
+        const auto one = sample_emission(s, {n.pick[k], {u[0][k], u[1][k]}, {u[2][k], u[3][k]}});
         if (one) set_lane(s, *one, k, e);
     });
     return e;

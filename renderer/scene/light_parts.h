@@ -16,11 +16,12 @@ LightPick pick_light(const Scene& scene, const vec3& reference, double u);
 std::array<LightPick, lane_count> pick_lights(const Scene& scene, const Mask8& wanted,
                                               const Vec3x8& reference, const Double8& u);
 
-// The probability that next event picks each of eight lights at eight places; and next_event_ratio()
-// of one whose probability is known.
-std::array<double, lane_count> next_event_probabilities(
-    const Scene& scene, const std::array<int, lane_count>& lights, const Vec3x8& reference,
-    const Mask8& wanted);
+// The probability that next event picks each of eight lights at eight places; and
+// next_event_ratio() of one whose probability is known.
+std::array<double, lane_count> next_event_probabilities(const Scene& scene,
+                                                        const std::array<int, lane_count>& lights,
+                                                        const Vec3x8& reference,
+                                                        const Mask8& wanted);
 double ratio_of_picks(const Scene& scene, int light, const LightEdge& edge, double probability);
 
 // Whether next event draws a lamp by solid angle.

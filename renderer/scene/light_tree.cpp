@@ -329,8 +329,9 @@ void LightTree::sample(const Vec3x8& reference, const Double8& u, const Mask8& w
     });
 }
 
-std::array<double, lane_count> LightTree::probabilities(
-    const std::array<int, lane_count>& lights, const Vec3x8& reference, const Mask8& wanted) const {
+std::array<double, lane_count> LightTree::probabilities(const std::array<int, lane_count>& lights,
+                                                        const Vec3x8& reference,
+                                                        const Mask8& wanted) const {
     std::array<double, lane_count> p{};
     Mask8 in_tree{};
     std::array<Descent, lane_count> descents;

@@ -11,10 +11,10 @@
 namespace midway {
 
 struct BsdfLanes {
-    Vec3x8 ng;       // geometric normal of the front side
-    Vec3x8 normal;   // shading normal, on the side of ng
-    Vec3x8 diffuse;  // albedo; zero in lanes with other lobes
-    Mask8 others{};  // lanes that have other lobes than Lambert's
+    Vec3x8 ng;                                    // geometric normal of the front side
+    Vec3x8 normal;                                // shading normal, on the side of ng
+    Vec3x8 diffuse;                               // albedo; zero in lanes with other lobes
+    Mask8 others{};                               // lanes that have other lobes than Lambert's
     std::array<const Bsdf*, lane_count> other{};  // in those lanes, kept by whoever made this
 };
 using BsdfStore = std::array<Bsdf, lane_count>;
