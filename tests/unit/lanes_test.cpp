@@ -304,10 +304,11 @@ TEST(Lanes, LightsAreDrawnAlike) {
                 const vec2 point{u[0][k], u[1][k]}, to{u[2][k], u[3][k]};
                 expect_next_event(s, n, k, sample_next_event(s, at[k], {pick[k], point}));
                 expect_emission(s, e, k, sample_emission(s, {pick[k], point, to}));
-                if (e.found[k])
+                if (e.found[k]) {
                     EXPECT_EQ(
                         ratios[size_t(k)],
                         next_event_ratio(s, e.lights[size_t(k)], {at[k], u[0][k], u[1][k] + 1.0f}));
+                }
             });
         }
     }
@@ -323,7 +324,10 @@ TEST(Lanes, RaysMeetTheSameSurfaces) {
         const Scene& s = *a.scene;
         BsdfStore store;
         for (int round = 0; round < rounds; ++round) {
-            const RayLanes rays{draw.directions() * 2.0f, draw.directions(),
+            // From outside towards a place within the scene.
+            const Vec3x8 from = draw.directions() * all_lanes(1.5f);
+            const Vec3x8 place = draw.directions() * (0.6f * draw.numbers());
+            const RayLanes rays{from, place - from,
                                 all_lanes(std::numeric_limits<float>::infinity())};
             const Mask8 wanted = draw.mask();
             std::array<std::uint64_t, lane_count> coins{1, 2, 3, 4, 5, 6, 7, 8};
