@@ -45,6 +45,18 @@ RenderSettings with_exponents(Technique technique, std::vector<double> exponents
     return s;
 }
 
+// What the film does not simply add.
+RenderSettings clamped(float largest) {
+    RenderSettings s = small(Technique::bdpt);
+    s.clamp = largest;
+    return s;
+}
+RenderSettings unweighted() {
+    RenderSettings s = small(Technique::bdpt);
+    s.unweighted = true;
+    return s;
+}
+
 std::vector<Setting> all_settings() {
     return {
         {"path", small(Technique::path), path_tracer_facts},
@@ -64,6 +76,8 @@ std::vector<Setting> all_settings() {
         {"plan with direct light twice", planned("emitter,next-event,light,connect", 4, true, 2),
          power2_facts},
         {"plan with many", planned("emitter,next-event,light,connect", 8), power2_facts},
+        {"clamped", clamped(0.02f), power2_facts},
+        {"bare", unweighted(), power2_facts},
         {"balance", with_exponents(Technique::path, {1}), no_facts},
         {"list", with_exponents(Technique::bdpt, {2, 1}), no_facts},
     };
@@ -133,16 +147,34 @@ TEST(Facts, AreFound) {
     }
 }
 
+void expect_same_statistics(const RenderStatistics& a, const RenderStatistics& b) {
+    EXPECT_EQ(a.clamped, b.clamped);
+    EXPECT_EQ(a.fixed.inexact, b.fixed.inexact);
+    ASSERT_EQ(a.strategies.size(), b.strategies.size());
+    for (size_t i = 0; i < a.strategies.size(); ++i) {
+        const StrategyStatistics &x = a.strategies[i], &y = b.strategies[i];
+        SCOPED_TRACE(describe(x.strategy));
+        EXPECT_TRUE(x.strategy == y.strategy);
+        EXPECT_EQ(x.samples, y.samples);
+        EXPECT_EQ(x.rays, y.rays);
+        EXPECT_EQ(x.energy, y.energy);
+        EXPECT_EQ(x.second_moment, y.second_moment);
+    }
+}
+
 TEST(Facts, NeedNotBeMadeUseOf) {
     const AgreementScene a = make_agreement_scene("five_lights");
     for (const Setting& k : all_settings()) {
         SCOPED_TRACE(k.name);
-        ProgressiveRenderer usual(a.scene, a.camera, k.settings, {.threads = 1});
-        ProgressiveRenderer general(a.scene, a.camera, k.settings, {.threads = 1, .general = true});
+        RendererOptions options{.threads = 1, .statistics = true};
+        ProgressiveRenderer usual(a.scene, a.camera, k.settings, options);
+        options.general = true;
+        ProgressiveRenderer general(a.scene, a.camera, k.settings, options);
         EXPECT_TRUE(usual.facts() == k.facts);
         EXPECT_TRUE(general.facts() == no_facts);
         usual.render_passes(2), general.render_passes(2);
         EXPECT_TRUE(usual.film().words() == general.film().words());
+        expect_same_statistics(usual.statistics(), general.statistics());
     }
 }
 

@@ -16,6 +16,7 @@
 #include "scene/surface_lanes.h"
 #include "support/agreement_scenes.h"
 #include "support/bsdfs.h"
+#include "support/rooms.h"
 
 namespace midway::test {
 namespace {
@@ -314,62 +315,82 @@ TEST(Lanes, LightsAreDrawnAlike) {
     }
 }
 
+struct Met {
+    int surfaces = 0, others = 0, turned = 0;
+};
+
+void expect_surface(const Scene& s, const TriangleHit& hit, const SurfaceLanes& lanes, int k,
+                    Met& met) {
+    const SurfacePoint p = *surface_at(s, hit);
+    const Bsdf b = make_bsdf(material_at(s, p), s.textures, p.shading);
+    ++met.surfaces;
+    met.turned += glm::dot(p.shading.normal, b.ng) < 0;
+    EXPECT_EQ(lanes.position[k], p.position);
+    EXPECT_EQ(lanes.error[k], p.error);
+    EXPECT_EQ(lanes.bsdf.ng[k], b.ng);
+    EXPECT_EQ(lanes.bsdf.normal[k], b.frame.n);
+    ASSERT_EQ(lanes.bsdf.others[k] == 0, b.only_diffuse);
+    EXPECT_EQ(lanes.bsdf.diffuse[k], b.only_diffuse ? b.diffuse : vec3(0));
+    if (b.only_diffuse) return;
+    ++met.others;
+    const Bsdf& other = *lanes.bsdf.other[size_t(k)];
+    EXPECT_EQ(other.frame.s, b.frame.s);
+    EXPECT_EQ(other.f0, b.f0);
+    EXPECT_EQ(other.glass, b.glass);
+    EXPECT_EQ(other.alpha, b.alpha);
+    EXPECT_EQ(other.thin, b.thin);
+}
+
+void expect_rays(const Scene& s, Draw& draw, Met& met) {
+    BsdfStore store;
+    for (int round = 0; round < rounds; ++round) {
+        // From outside towards a place within the scene.
+        const Vec3x8 from = draw.directions() * all_lanes(1.5f);
+        const Vec3x8 place = draw.directions() * (0.6f * draw.numbers());
+        const RayLanes rays{from, place - from, all_lanes(std::numeric_limits<float>::infinity())};
+        const Mask8 wanted = draw.mask();
+        const std::array<std::uint64_t, lane_count> coins{1, 2, 3, 4, 5, 6, 7, 8};
+        HitLanes hits;
+        s.accel->closest(rays, wanted, {&s}, coins, hits);
+        const Float8 part = s.accel->transmittance(rays, wanted, {&s});
+        Mask8 surface{};
+        for_each_lane(wanted, [&](int k) {
+            const TriangleHit one = s.accel->closest(rays[k], {&s}, coins[size_t(k)]);
+            const TriangleHit& hit = hits[size_t(k)];
+            EXPECT_EQ(part[k], s.accel->transmittance(rays[k], {&s}));
+            ASSERT_EQ(hit.object, one.object);
+            if (one.object < 0) return;
+            surface[k] = -1;
+            EXPECT_EQ(hit.triangle, one.triangle);
+            EXPECT_EQ(vec2(hit.b1, hit.b2), vec2(one.b1, one.b2));
+        });
+        SurfaceLanes lanes{};
+        surfaces_at(s, hits, surface, lanes, store);
+        for_each_lane(surface, [&](int k) { expect_surface(s, hits[size_t(k)], lanes, k, met); });
+    }
+}
+
+// A ball whose normals point inwards, as some files have them.
+std::shared_ptr<const Scene> inside_out() {
+    SceneDescription d = plain_room();
+    Mesh ball = make_icosphere({0, 0.5f, 0.8f}, 0.4f, 2, false, true);
+    for (vec3& n : ball.normals) n = -n;
+    add(d, ball, lambert(vec3(0.5f)));
+    return build(d);
+}
+
 TEST(Lanes, RaysMeetTheSameSurfaces) {
     const ScopedFlushToZero flush;
     Draw draw;
-    int met = 0, others = 0;
+    Met met;
     for (const std::string& name : oracle_scene_names()) {
         SCOPED_TRACE(name);
-        const AgreementScene a = make_agreement_scene(name);
-        const Scene& s = *a.scene;
-        BsdfStore store;
-        for (int round = 0; round < rounds; ++round) {
-            // From outside towards a place within the scene.
-            const Vec3x8 from = draw.directions() * all_lanes(1.5f);
-            const Vec3x8 place = draw.directions() * (0.6f * draw.numbers());
-            const RayLanes rays{from, place - from,
-                                all_lanes(std::numeric_limits<float>::infinity())};
-            const Mask8 wanted = draw.mask();
-            std::array<std::uint64_t, lane_count> coins{1, 2, 3, 4, 5, 6, 7, 8};
-            HitLanes hits;
-            s.accel->closest(rays, wanted, {&s}, coins, hits);
-            const Float8 part = s.accel->transmittance(rays, wanted, {&s});
-            Mask8 surface{};
-            for_each_lane(wanted, [&](int k) {
-                const TriangleHit one = s.accel->closest(rays[k], {&s}, coins[size_t(k)]);
-                const TriangleHit& hit = hits[size_t(k)];
-                ASSERT_EQ(hit.object, one.object);
-                EXPECT_EQ(part[k], s.accel->transmittance(rays[k], {&s}));
-                if (one.object < 0) return;
-                surface[k] = -1;
-                EXPECT_EQ(hit.triangle, one.triangle);
-                EXPECT_EQ(vec2(hit.b1, hit.b2), vec2(one.b1, one.b2));
-            });
-            SurfaceLanes lanes{};
-            surfaces_at(s, hits, surface, lanes, store);
-            for_each_lane(surface, [&](int k) {
-                ++met;
-                const SurfacePoint p = *surface_at(s, hits[size_t(k)]);
-                const Bsdf b = make_bsdf(material_at(s, p), s.textures, p.shading);
-                EXPECT_EQ(lanes.position[k], p.position);
-                EXPECT_EQ(lanes.error[k], p.error);
-                EXPECT_EQ(lanes.bsdf.ng[k], b.ng);
-                EXPECT_EQ(lanes.bsdf.normal[k], b.frame.n);
-                ASSERT_EQ(lanes.bsdf.others[k] == 0, b.only_diffuse);
-                EXPECT_EQ(lanes.bsdf.diffuse[k], b.only_diffuse ? b.diffuse : vec3(0));
-                if (b.only_diffuse) return;
-                ++others;
-                const Bsdf& other = *lanes.bsdf.other[size_t(k)];
-                EXPECT_EQ(other.frame.s, b.frame.s);
-                EXPECT_EQ(other.f0, b.f0);
-                EXPECT_EQ(other.glass, b.glass);
-                EXPECT_EQ(other.alpha, b.alpha);
-                EXPECT_EQ(other.thin, b.thin);
-            });
-        }
+        expect_rays(*make_agreement_scene(name).scene, draw, met);
     }
-    EXPECT_GT(met, 1000);
-    EXPECT_GT(others, 100);
+    expect_rays(*inside_out(), draw, met);
+    EXPECT_GT(met.surfaces, 1000);
+    EXPECT_GT(met.others, 100);
+    EXPECT_GT(met.turned, 10);
 }
 
 }  // namespace
