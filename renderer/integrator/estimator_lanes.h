@@ -1,7 +1,7 @@
 // The estimator of estimator.h for a whole group of pixels at once, its eight samples side by side:
-// the same walks, strategies and weights with the same bits, in a third of the instructions. It
-// serves the passes that have code of their own (facts.h: one exponent, 2); lists of exponents,
-// groups at the end of a row, and whoever looks at a single sample take estimator.h.
+// the same walks, strategies and weights with the same bits, in half the instructions. It serves
+// the passes that have code of their own (facts.h: one exponent, 2); lists of exponents, groups at
+// the end of a row, and whoever looks at a single sample take estimator.h.
 //
 // Where the scalar code returns early, a lane leaves the mask of those that go on. What is rare or
 // of many kinds (lamps that are hit, textures, lobes other than Lambert's, near lamps, lights

@@ -120,8 +120,11 @@ template <Facts F>
 void extend(const Estimator& e, WalkLanes& w, StoredVertex& vertex) {
     e.at(Work::rays);
     trace_rays(e, w);
-    e.at(Work::shading);
     ++w.index;
+    // Numbers are drawn while what the hits need is still on its way (Accel::closest).
+    e.at(Work::sampling);
+    w.numbers = sample_4d_pairs(w.keys, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index));
+    e.at(Work::shading);
     VertexLanes& v = vertex.lanes;
     v.index = w.index;
     v.throughput = w.throughput;
@@ -146,8 +149,6 @@ void extend(const Estimator& e, WalkLanes& w, StoredVertex& vertex) {
         advance_sums<F>(e, w, to_double(cos_fwd) / to_double(d2),
                         to_double(w.cos_previous) / to_double(d2));
     v.mis = w.mis;
-    e.at(Work::sampling);
-    w.numbers = sample_4d_pairs(w.keys, w.surface, 2 + 2 * static_cast<std::uint32_t>(w.index));
     e.at(Work::shading);
 }
 
