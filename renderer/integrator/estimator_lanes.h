@@ -52,7 +52,7 @@ Contribution contribution_of(const FoundLanes& found, int lane, int sample);
 // Kept by each worker so that nothing is allocated per sample.
 struct EstimatorLanes {
     WalkLanes walk;
-    StoredVertex camera;             // the camera walks' last vertex
+    StoredVertex camera;             // the camera walks' last vertex, or of light walks not kept
     std::deque<StoredVertex> light;  // vertices 1, 2, ... of the group's light subpaths
     int light_vertices = 0;          // how many there are
 

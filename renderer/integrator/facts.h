@@ -19,8 +19,8 @@ struct Facts {
     bool operator==(const Facts&) const = default;
 };
 
-// The instances of the estimator that there are, compiled at the ends of walk.cpp and
-// estimator.cpp.
+// The instances of the estimator that there are, compiled at the ends of walk.cpp,
+// estimator.cpp and their likes for lanes.
 inline constexpr Facts no_facts{};
 inline constexpr Facts power2_facts{.one_power2 = true};
 inline constexpr Facts path_tracer_facts{.one_power2 = true, .path_tracer = true};

@@ -52,7 +52,7 @@ struct WalkLanes {
     NumberLanes numbers;  // as VertexNumbers: scatter, connect
 };
 
-// `g` is a whole group.
+// Of the whole group that begins at x0.
 void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, WalkLanes& w);
 
 // Lane k walks subpath numbers[k]; lanes whose number is not below e.light_subpaths have none.

@@ -1,4 +1,4 @@
-// What light.cpp (one sample) and next_event_lanes.cpp (eight at once) share; nobody else includes
+// What light.cpp (one sample) and light_lanes.cpp (eight at once) share; nobody else includes
 // it.
 #pragma once
 
