@@ -20,10 +20,14 @@ struct VertexLanes {
     Mask8 connectible{};
 };
 
-// With what its lanes point to, so that it stays where it is.
+// With what its lanes point to: a copy would point into the original.
 struct StoredVertex {
     VertexLanes lanes;
     BsdfStore store;
+
+    StoredVertex() = default;
+    StoredVertex(const StoredVertex&) = delete;
+    StoredVertex& operator=(const StoredVertex&) = delete;
 };
 
 struct WalkLanes {

@@ -126,6 +126,14 @@ inline Double8 rotate(const Double8& x, const Mask8& from) {
     return {__builtin_shuffle(x.low, x.high, low), __builtin_shuffle(x.low, x.high, high)};
 }
 
+// By turns from a and b, within each half of four lanes: its lower two of either, its upper two.
+inline Float8 interleave_low(const Float8& a, const Float8& b) {
+    return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+}
+inline Float8 interleave_high(const Float8& a, const Float8& b) {
+    return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+}
+
 struct Vec3x8 {
     Float8 x, y, z;
 

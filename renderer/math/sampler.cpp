@@ -161,16 +161,11 @@ std::array<Float8, 4> columns(const std::array<Float8, lane_count>& rows) {
         return __builtin_shufflevector(rows[k], rows[k + 4], first, first + 1, first + 2, first + 3,
                                        first + 8, first + 9, first + 10, first + 11);
     };
-    const auto low = [](const Float8& a, const Float8& b) {
-        return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-    };
-    const auto high = [](const Float8& a, const Float8& b) {
-        return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-    };
     const Float8 a = half(0), b = half(1), c = half(2), d = half(3);
-    const Float8 ac_low = low(a, c), bd_low = low(b, d), ac_high = high(a, c), bd_high = high(b, d);
-    return {low(ac_low, bd_low), high(ac_low, bd_low), low(ac_high, bd_high),
-            high(ac_high, bd_high)};
+    const Float8 ac_low = interleave_low(a, c), bd_low = interleave_low(b, d);
+    const Float8 ac_high = interleave_high(a, c), bd_high = interleave_high(b, d);
+    return {interleave_low(ac_low, bd_low), interleave_high(ac_low, bd_low),
+            interleave_low(ac_high, bd_high), interleave_high(ac_high, bd_high)};
 }
 
 }  // namespace

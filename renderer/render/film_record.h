@@ -136,7 +136,7 @@ class FilmRecord {
         group_ = {};
         for (int x = g.x0; x < g.x1; ++x) prefetch(place_in(targets_.films->front(), x, g.y));
     }
-    void contributions(const FoundLanes& f, int sample = 0) {
+    void contributions(const FoundLanes& f, int sample) {
         const PlainValues plain = plain_values(f);
         for_each_lane(plain.lanes, [&](int k) {
             const FixedRgb v = fixed(plain.value[k]);
@@ -159,7 +159,7 @@ class FilmRecord {
                 fixed(plain.value[k]);
         });
         for_each_lane(s.found.lanes & ~plain.lanes, [&](int k) {
-            go_to_lane(k);
+            x_ = x0_ + k;
             splat(s.pixels[k].x, s.pixels[k].y, contribution_of(s.found, k, 0));
         });
     }

@@ -82,14 +82,8 @@ struct QuadLanes {
 };
 QuadLanes quads_of(const Vec3x8& v) {
     const Float8 zero{};
-    const auto low = [](const Float8& a, const Float8& b) {
-        return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-    };
-    const auto high = [](const Float8& a, const Float8& b) {
-        return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-    };
-    const Float8 xy = low(v.x, v.y), xy_next = high(v.x, v.y);
-    const Float8 zw = low(v.z, zero), zw_next = high(v.z, zero);
+    const Float8 xy = interleave_low(v.x, v.y), xy_next = interleave_high(v.x, v.y);
+    const Float8 zw = interleave_low(v.z, zero), zw_next = interleave_high(v.z, zero);
     const auto lower = [](const Float8& a, const Float8& b) {
         return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
     };
@@ -173,7 +167,7 @@ Accel::Accel(std::shared_ptr<const Geometry> geometry, bool ask_all)
     const auto embree = std::make_shared<Embree>();
     embree_ = embree;
     Embree& e = *embree;
-    e.device = rtcNewDevice("hugepages=1");
+    e.device = rtcNewDevice(nullptr);
     if (!e.device) throw std::runtime_error("Embree cannot start (device); check the processor");
     e.scene = rtcNewScene(e.device);
     // High quality was not deterministic; the robust flag closes the edges between triangles.

@@ -251,8 +251,6 @@ GroupPick pick_group(const Scene& s, double u) {
     return {-1, std::clamp((u - s.next_event_group.cdf[0]) / p, 0.0, 1 - 0x1p-53), p};
 }
 
-}  // namespace
-
 LightPick pick_light(const Scene& s, const vec3& reference, double u) {
     const GroupPick g = pick_group(s, u);
     if (g.infinite_light >= 0) return {g.infinite_light, g.probability};
@@ -261,6 +259,8 @@ LightPick pick_light(const Scene& s, const vec3& reference, double u) {
     p.probability *= g.probability;
     return p;
 }
+
+}  // namespace
 
 std::array<LightPick, lane_count> pick_lights(const Scene& s, const Mask8& wanted,
                                               const Vec3x8& reference, const Double8& u) {

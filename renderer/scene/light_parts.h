@@ -12,7 +12,6 @@ struct LightPick {
     int light = -1;
     double probability = 0;
 };
-LightPick pick_light(const Scene& scene, const vec3& reference, double u);
 std::array<LightPick, lane_count> pick_lights(const Scene& scene, const Mask8& wanted,
                                               const Vec3x8& reference, const Double8& u);
 

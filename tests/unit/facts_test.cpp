@@ -166,15 +166,17 @@ TEST(Facts, NeedNotBeMadeUseOf) {
     const AgreementScene a = make_agreement_scene("five_lights");
     for (const Setting& k : all_settings()) {
         SCOPED_TRACE(k.name);
-        RendererOptions options{.threads = 1, .statistics = true};
-        ProgressiveRenderer usual(a.scene, a.camera, k.settings, options);
-        options.general = true;
-        ProgressiveRenderer general(a.scene, a.camera, k.settings, options);
-        EXPECT_TRUE(usual.facts() == k.facts);
-        EXPECT_TRUE(general.facts() == no_facts);
-        usual.render_passes(2), general.render_passes(2);
-        EXPECT_TRUE(usual.film().words() == general.film().words());
-        expect_same_statistics(usual.statistics(), general.statistics());
+        for (const bool statistics : {false, true}) {
+            RendererOptions options{.threads = 1, .statistics = statistics};
+            ProgressiveRenderer usual(a.scene, a.camera, k.settings, options);
+            options.general = true;
+            ProgressiveRenderer general(a.scene, a.camera, k.settings, options);
+            EXPECT_TRUE(usual.facts() == k.facts);
+            EXPECT_TRUE(general.facts() == no_facts);
+            usual.render_passes(2), general.render_passes(2);
+            EXPECT_TRUE(usual.film().words() == general.film().words());
+            expect_same_statistics(usual.statistics(), general.statistics());
+        }
     }
 }
 
