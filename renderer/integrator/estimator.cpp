@@ -21,11 +21,9 @@ bool no_weight(const Estimator& e, const Contribution& c) {
     return true;
 }
 
-// Whether anything of a contribution arrives over its edge; `seen` traces the edge's ray, which is
-// spared where the answer is known.
-template <Facts F, class Seen>
+// Whether anything of a contribution arrives over its edge; `seen` traces the edge's ray.
+template <class Seen>
 bool arrives(const Estimator& e, Contribution& c, RayCounts& rays, const Seen& seen) {
-    if (is_black(c.value) || no_weight<F>(e, c)) return false;
     rays.count_shadow(c.strategy);
     e.at(Work::rays);
     const float part = seen();
@@ -34,15 +32,34 @@ bool arrives(const Estimator& e, Contribution& c, RayCounts& rays, const Seen& s
     return part > 0;
 }
 
+// Whether the ray need not be traced to know that nothing arrives.
+template <Facts F>
+bool is_nothing(const Estimator& e, const Contribution& c) {
+    return is_black(c.value) || no_weight<F>(e, c);
+}
+
 // n of the strategy that moves the connecting edge one step towards the camera (or the light);
 // where a vertex or a light forbids it, the sums are zero.
-mis::Side towards_camera(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
-    side.n = e.count({k.s - 1, k.t + 1}, exponent);
+mis::Side towards_camera(const Estimator& e, const PathVertex& v, const Strategy& k, int exponent,
+                         mis::Side side) {
+    side.n = e.count({k.s - 1, k.t + 1}, exponent, v.rough == v.index - 1);
     return side;
 }
+// Seen from the camera the light's last vertex follows a rough one, but for light tracing's.
 mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis::Side side) {
-    side.n = e.count({k.s + 1, k.t - 1}, exponent);
+    side.n = e.count({k.s + 1, k.t - 1}, exponent, k.s == 1);
     return side;
+}
+
+// By which of its weights a contribution counts when one is chosen.
+template <Facts F>
+double deciding_weight(const Estimator& e, const Contribution& c) {
+    if (e.bare) return no_weight<F>(e, c) ? 0 : 1;
+    double largest = c.weights[0];
+    if constexpr (!F.one_power2)
+        for (int i = 1; i < e.deciding_exponents; ++i)
+            if (!(c.weights[i] <= largest)) largest = c.weights[i];
+    return largest;
 }
 
 }  // namespace
@@ -109,48 +126,61 @@ std::optional<Contribution> connect_to_light(const Estimator& e, const PathVerte
     fill_weights<F>(e, c, [&](const auto& h, int i) {
         pdfs.hit_feasible = !is_delta(kind) && e.weighed[i].emitter_hit;
         if constexpr (F.path_tracer) return mis::path_tracer::next_event(h, pdfs);
-        return mis::next_event(h, v.mis[i], towards_camera(e, c.strategy, i, side), pdfs);
+        return mis::next_event(h, v.mis[i], towards_camera(e, v, c.strategy, i, side), pdfs);
     });
     const auto seen = [&] {
         const vec3 from = leave(v, n->direction);
         if (is_infinite(kind)) return visibility_to_infinity(*e.scene, from, n->direction);
         return visibility(*e.scene, from, offset_end(n->target, n->normal, n->error, v.position));
     };
-    if (!arrives<F>(e, c, rays, seen)) found.reset();
+    if (is_nothing<F>(e, c) || !arrives(e, c, rays, seen)) found.reset();
     return found;
 }
 
 template <Facts F>
-std::optional<Contribution> connect(const Estimator& e, const PathVertex& v, const PathVertex& l,
-                                    RayCounts& rays) {
+void offer_connection(const Estimator& e, const PathVertex& v, const PathVertex& l, int count,
+                      int place, ConnectionChoice& choice) {
     e.at(Work::shading);
-    std::optional<Contribution> found;
     const vec3 d = l.position - v.position;
     const double distance2 = length_squared(d);
-    if (!(distance2 > 0)) return found;
+    if (!(distance2 > 0)) return;
     const vec3 direction = d / static_cast<float>(std::sqrt(distance2));
     if (!may_scatter(v.bsdf, v.to_previous, direction) ||
         !may_scatter(l.bsdf, l.to_previous, -direction))
-        return found;
+        return;
     const BsdfEval fv = eval_bsdf(v.bsdf, v.to_previous, direction, Transport::radiance);
-    if (is_black(fv.f)) return found;
+    if (is_black(fv.f)) return;
     const BsdfEval fl = eval_bsdf(l.bsdf, l.to_previous, -direction, Transport::importance);
-    if (is_black(fl.f)) return found;
-    const double g_v = abs_dot(v.ng, direction) / distance2;
-    const double g_l = abs_dot(l.ng, direction) / distance2;
-    Contribution& c = found.emplace();
+    if (is_black(fl.f)) return;
+    const double cos_v = abs_dot(v.ng, direction), near = 1 / distance2;
+    const double g_v = cos_v * near, g_l = abs_dot(l.ng, direction) * near;
+    Contribution c;
     c.strategy = {v.index + 1, l.index + 1};
     c.value = v.throughput * fv.f * fl.f * l.throughput *
-              static_cast<float>(g_v * g_l * distance2 / e.connection_share);
+              static_cast<float>(cos_v * g_l * (1 / (e.connection_share * count)));
 
     const mis::Side camera{fl.pdf_fwd_w * g_v, fv.pdf_rev_w};
     const mis::Side light{fv.pdf_fwd_w * g_l, fl.pdf_rev_w};
+    const double n = e.connections(v.rough == 0);
     e.at(Work::weights);
     fill_weights<F>(e, c, [&](const auto& h, int i) {
-        return mis::connection(h, v.mis[i], towards_camera(e, c.strategy, i, camera), l.mis[i],
-                               towards_light(e, c.strategy, i, light), e.connection_share);
+        return mis::connection(h, v.mis[i], towards_camera(e, v, c.strategy, i, camera), l.mis[i],
+                               towards_light(e, c.strategy, i, light), n);
     });
-    if (!arrives<F>(e, c, rays, [&] { return edge_visibility(*e.scene, v, l); })) found.reset();
+    if (!choice.among.offer(importance_of(c.value, deciding_weight<F>(e, c)))) return;
+    choice.contribution = c;
+    choice.light = &l;
+    choice.place = place;
+}
+
+std::optional<Contribution> connect(const Estimator& e, const PathVertex& v,
+                                    const ConnectionChoice& choice, RayCounts& rays) {
+    std::optional<Contribution> found = choice.contribution;
+    const double factor = choice.among.factor();
+    found->value *= static_cast<float>(factor);
+    found->probability = 1 / factor;
+    if (!arrives(e, *found, rays, [&] { return edge_visibility(*e.scene, v, *choice.light); }))
+        found.reset();
     return found;
 }
 
@@ -188,7 +218,8 @@ std::optional<Splat> connect_to_camera(const Estimator& e, const PathVertex& l, 
         return mis::light_tracing(h, l.mis[i], towards_light(e, c.strategy, i, side),
                                   double(e.light_subpaths) * e.share_of(c.strategy.edges()));
     });
-    if (!arrives<F>(e, c, rays, [&] { return edge_visibility(*e.scene, l, lens); })) splat.reset();
+    const auto seen = [&] { return edge_visibility(*e.scene, l, lens); };
+    if (is_nothing<F>(e, c) || !arrives(e, c, rays, seen)) splat.reset();
     return splat;
 }
 
@@ -201,8 +232,8 @@ template decltype(weigh_hit<path_tracer_facts>) weigh_hit<path_tracer_facts>;
 template decltype(connect_to_light<no_facts>) connect_to_light<no_facts>;
 template decltype(connect_to_light<power2_facts>) connect_to_light<power2_facts>;
 template decltype(connect_to_light<path_tracer_facts>) connect_to_light<path_tracer_facts>;
-template decltype(connect<no_facts>) connect<no_facts>;
-template decltype(connect<power2_facts>) connect<power2_facts>;
+template decltype(offer_connection<no_facts>) offer_connection<no_facts>;
+template decltype(offer_connection<power2_facts>) offer_connection<power2_facts>;
 template decltype(connect_to_camera<no_facts>) connect_to_camera<no_facts>;
 template decltype(connect_to_camera<power2_facts>) connect_to_camera<power2_facts>;
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "integrator/choice.h"
 #include "integrator/light_subpaths.h"
 
 namespace midway {
@@ -26,7 +27,8 @@ struct Contribution {
     Strategy strategy;
     vec3 value{0};
     std::array<double, max_exponents> weights;
-    int sample = 0;  // of a vertex that asks for light more than once, which
+    int sample = 0;          // of a vertex that asks for light more than once, which
+    double probability = 1;  // of having been chosen among others, which the value makes up for
 };
 
 struct RayCounts {
@@ -47,10 +49,38 @@ template <Facts F = no_facts>
 std::optional<Contribution> connect_to_light(const Estimator& e, const PathVertex& camera,
                                              const vec4& u, RayCounts& rays);
 
-// Connection of two surface vertices (s, t >= 2).
+// Connections of a camera vertex (s, t >= 2), of which one is chosen to have its ray traced.
+struct ConnectionChoice {
+    Choice<double> among;
+    Contribution contribution;  // of the chosen one
+    const PathVertex* light = nullptr;
+    int place = 0;  // of its light subpath in the group
+};
+
+// Offers the connection to a light vertex; `count`: of how many such the estimate is the mean.
 template <Facts F = no_facts>
+void offer_connection(const Estimator& e, const PathVertex& camera, const PathVertex& light,
+                      int count, int place, ConnectionChoice& choice);
+
+// Chooses one of the connections to light vertices j .. last; `vertex` gives that of a number on
+// the light subpath at a place of the group, or null.
+template <Facts F = no_facts, class Vertex>
+ConnectionChoice choose_connection(const Estimator& e, const Walk& camera, int place, int group,
+                                   int j, int last, const Vertex& vertex) {
+    const PathVertex& v = camera.vertex;
+    ConnectionChoice choice{.among = {choice_number(camera.key, v.index, j)}};
+    const int count = v.rough == 0 ? group : 1;
+    for (; j <= last; ++j)
+        for_each_partner(v, place, j, group, [&](int from) {
+            const PathVertex* l = vertex(from, j);
+            if (l) offer_connection<F>(e, v, *l, count, from, choice);
+        });
+    return choice;
+}
+
+// The chosen connection, if its ray arrives.
 std::optional<Contribution> connect(const Estimator& e, const PathVertex& camera,
-                                    const PathVertex& light, RayCounts& rays);
+                                    const ConnectionChoice& choice, RayCounts& rays);
 
 // Light tracing from a light vertex (s = 1), with the pixel it is splatted to.
 struct Splat {
@@ -128,15 +158,19 @@ void trace_light_subpaths(const Estimator& e, std::uint64_t paired, std::uint64_
 
 // Every connection from a vertex of the camera sample at `place`.
 template <Facts F = no_facts, class Record>
-void connect_to_subpaths(const Estimator& e, const PathVertex& v, const LightSubpaths& light,
+void connect_to_subpaths(const Estimator& e, const Walk& walk, const LightSubpaths& light,
                          int place, Record& record, RayCounts& rays) {
-    const int last = std::min(light.longest, e.max_bounces - v.index);
-    for (int j = 1; j <= last; ++j) {
-        const int from = partner(place, v.index, j, light.count);
-        const PathVertex* l = vertex_at(light.of[static_cast<size_t>(from)], j);
-        if (l && record.wants({v.index + 1, j + 1}))
-            record_own(e, connect<F>(e, v, *l, rays), record);
-    }
+    const PathVertex& v = walk.vertex;
+    const bool first = v.rough == 0;
+    const auto vertex = [&](int from, int j) {
+        return vertex_at(light.of[static_cast<size_t>(from)], j);
+    };
+    for_each_choice(first, std::min(light.longest, e.max_bounces - v.index), [&](int j, int last) {
+        const ConnectionChoice choice =
+            choose_connection<F>(e, walk, place, light.count, j, last, vertex);
+        if (choice.light && record.wants(choice.contribution.strategy))
+            record_own(e, connect(e, v, choice, rays), record);
+    });
 }
 
 // Walks the camera subpath and forms every strategy that ends on it. `place`: of the sample in the
@@ -161,7 +195,8 @@ void trace_camera_subpath(const Estimator& e, int x, int y, std::uint64_t pass, 
                     if (c) c->sample = i;
                     record_own(e, c, record);
                 });
-            if constexpr (!F.path_tracer) connect_to_subpaths<F>(e, v, light, place, record, rays);
+            if constexpr (!F.path_tracer)
+                connect_to_subpaths<F>(e, walk, light, place, record, rays);
         }
         if (has_found_all(e, walk.index) || !scatter(walk)) return;
     }
@@ -178,7 +213,7 @@ bool estimate(const Estimator& e, const PixelGroup& g, std::uint64_t pass, Light
     const auto each = [&](const auto& trace) {
         for (int place = 0; place < g.size(); ++place) {
             if (!go_on()) return false;
-            record.begin(g.x0 + place, g.y, pass);
+            record.begin(g.x(place), g.y, pass);
             trace(place);
         }
         return true;
@@ -186,7 +221,7 @@ bool estimate(const Estimator& e, const PixelGroup& g, std::uint64_t pass, Light
     if constexpr (!F.path_tracer) {
         light.begin(g.size());
         if (e.families.needs_light_subpaths()) {
-            const auto paired = paired_subpaths(e, g.x0, g.y, g.size(), pass);
+            const auto paired = paired_subpaths(e, g, pass);
             const bool done = each([&](int place) {
                 trace_light_subpaths<F>(e, paired[static_cast<size_t>(place)], pass, place, light,
                                         record, rays);
@@ -195,7 +230,7 @@ bool estimate(const Estimator& e, const PixelGroup& g, std::uint64_t pass, Light
         }
     }
     return each([&](int place) {
-        trace_camera_subpath<F>(e, g.x0 + place, g.y, pass, place, light, record, rays);
+        trace_camera_subpath<F>(e, g.x(place), g.y, pass, place, light, record, rays);
         e.at(Work::film);
         record.end();
         e.at(Work::other);
@@ -217,15 +252,15 @@ void estimate_alone(const Estimator& e, int x, int y, std::uint64_t pass, LightS
     light.begin(g.size());
     DeafRecord deaf;
     RayCounts others;
-    const auto paired = paired_subpaths(e, g.x0, g.y, g.size(), pass);
+    const auto paired = paired_subpaths(e, g, pass);
     for (int place = 0; place < g.size() && e.families.needs_light_subpaths(); ++place) {
         const std::uint64_t first = paired[static_cast<size_t>(place)];
-        if (g.x0 + place == x)
+        if (g.x(place) == x)
             trace_light_subpaths(e, first, pass, place, light, record, rays);
         else if (e.families.connection)
             trace_light_subpaths(e, first, pass, place, light, deaf, others);
     }
-    trace_camera_subpath(e, x, y, pass, x - g.x0, light, record, rays);
+    trace_camera_subpath(e, x, y, pass, g.place_of(x), light, record, rays);
 }
 
 }  // namespace midway

@@ -15,23 +15,58 @@
 
 namespace midway {
 
-// What one strategy found in each lane.
+// What one strategy found in each lane; connections, of strategies with different t.
 struct FoundLanes {
     Mask8 lanes{};
-    Strategy strategy;
-    Vec3x8 value;
-    Double8 weight;
+    int s = 0;
+    Mask8 t{};
+    Vec3x8 value{};
+    Double8 weight{};
+
+    Strategy strategy(int lane) const { return {s, t[lane]}; }
 };
+inline FoundLanes nothing_of(const Strategy& k) {
+    FoundLanes f;
+    f.s = k.s;
+    f.t = Mask8{} + k.t;
+    return f;
+}
+
+// Vertices 1, 2, ... of a group's light subpaths.
+struct LightVertices {
+    std::deque<StoredVertex> kept;
+    int count = 0;
+
+    StoredVertex& next() {
+        if (kept.size() == static_cast<size_t>(count)) kept.emplace_back();
+        return kept[static_cast<size_t>(count++)];
+    }
+    const VertexLanes& vertex(int j) const { return kept[static_cast<size_t>(j) - 1].lanes; }
+};
+
+inline Mask8 at_first_rough(const VertexLanes& camera, bool first) {
+    return first ? camera.rough == 0 : camera.rough != 0;
+}
 
 // Next event from the camera vertices in `lanes` (t = 1), with next event's numbers.
 template <Facts F>
 FoundLanes connect_to_lights(const Estimator& e, const VertexLanes& camera,
                              const std::array<Float8, 4>& u, RayCounts& rays);
 
-// Connections of each camera vertex to the light vertex `shift` lanes on (s, t >= 2).
+// The connections that camera vertices chose (s, t >= 2), and where their rays go.
+struct ConnectionLanes {
+    FoundLanes found;
+    RayLanes edges;
+};
+// Among those to light vertices j .. last, in lanes that are (`first`) at the first rough surfaces
+// of their walks, or that are not.
 template <Facts F>
-FoundLanes connect(const Estimator& e, const VertexLanes& camera, const VertexLanes& light,
-                   int shift, RayCounts& rays);
+ConnectionLanes choose_connections(const Estimator& e, const VertexLanes& camera, bool first,
+                                   const Double8& numbers, const LightVertices& light, int j,
+                                   int last);
+
+// Traces the rays of what was found; lanes that are blocked are no longer found.
+void let_arrive(const Estimator& e, FoundLanes& found, const RayLanes& edges, RayCounts& rays);
 
 // Light tracing from the light vertices (s = 1), with the pixels they are splatted to.
 struct SplatLanes {
@@ -52,14 +87,8 @@ Contribution contribution_of(const FoundLanes& found, int lane, int sample);
 // Kept by each worker so that nothing is allocated per sample.
 struct EstimatorLanes {
     WalkLanes walk;
-    StoredVertex camera;             // the camera walks' last vertex, or of light walks not kept
-    std::deque<StoredVertex> light;  // vertices 1, 2, ... of the group's light subpaths
-    int light_vertices = 0;          // how many there are
-
-    StoredVertex& next_light_vertex() {
-        if (light.size() == static_cast<size_t>(light_vertices)) light.emplace_back();
-        return light[static_cast<size_t>(light_vertices++)];
-    }
+    StoredVertex camera;  // the camera walks' last vertex, or of light walks not kept
+    LightVertices light;
 };
 
 // Hands what was found, if anything, to the record, which is as in estimator.h, and besides has
@@ -90,7 +119,7 @@ void trace_light_subpaths(const Estimator& e, const std::array<std::uint64_t, la
     for (const std::uint64_t n : numbers) rays.light_paths += n < e.light_subpaths;
     start_light_walks(e, numbers, pass, w);
     while (any(w.active) && w.index < e.max_bounces) {
-        StoredVertex& vertex = keep ? s.next_light_vertex() : s.camera;
+        StoredVertex& vertex = keep ? s.light.next() : s.camera;
         rays.closest += static_cast<std::uint64_t>(std::popcount(bits(w.active)));
         extend<F>(e, w, vertex);
         const VertexLanes& v = vertex.lanes;
@@ -101,16 +130,23 @@ void trace_light_subpaths(const Estimator& e, const std::array<std::uint64_t, la
     }
 }
 
-// Every connection from the group's camera vertices of one number.
+// Every connection from the group's camera vertices of one number, as for_each_choice() has them
+// for those that are `first`, or that are not.
 template <Facts F, class Record>
-void connect_to_subpaths(const Estimator& e, const VertexLanes& v, EstimatorLanes& s,
+void connect_to_subpaths(const Estimator& e, const VertexLanes& v, bool first, EstimatorLanes& s,
                          Record& record, RayCounts& rays) {
-    const int last = std::min(s.light_vertices, e.max_bounces - v.index);
-    for (int j = 1; j <= last; ++j) {
-        if (!record.wants({v.index + 1, j + 1})) continue;
-        const VertexLanes& l = s.light[static_cast<size_t>(j) - 1].lanes;
-        record_found(e, connect<F>(e, v, l, partner(0, v.index, j, lane_count), rays), record);
-    }
+    for_each_choice(first, std::min(s.light.count, e.max_bounces - v.index), [&](int j, int last) {
+        Double8 numbers;
+        for (int k = 0; k < lane_count; ++k)
+            numbers.set(k, choice_number(s.walk.keys[k], v.index, j));
+        ConnectionLanes c = choose_connections<F>(e, v, first, numbers, s.light, j, last);
+        for_each_lane(c.found.lanes, [&](int k) {
+            if (!record.wants(c.found.strategy(k))) c.found.lanes[k] = 0;
+        });
+        if (!any(c.found.lanes)) return;
+        let_arrive(e, c.found, c.edges, rays);
+        record_found(e, c.found, record);
+    });
 }
 
 // As trace_camera_subpath().
@@ -120,7 +156,7 @@ void trace_camera_subpaths(const Estimator& e, const PixelGroup& g, std::uint64_
     WalkLanes& w = s.walk;
     const VertexLanes& v = s.camera.lanes;
     rays.camera_paths += lane_count;
-    start_camera_walks(e, g.x0, g.y, pass, w);
+    start_camera_walks(e, g, pass, w);
     while (any(w.active)) {
         rays.closest += static_cast<std::uint64_t>(std::popcount(bits(w.active)));
         extend<F>(e, w, s.camera);
@@ -132,7 +168,10 @@ void trace_camera_subpaths(const Estimator& e, const PixelGroup& g, std::uint64_
                 for_each_next_event(e, v.index, w.numbers.second, [&](const auto& u, int i) {
                     record_found(e, connect_to_lights<F>(e, v, u, rays), record, i);
                 });
-            if constexpr (!F.path_tracer) connect_to_subpaths<F>(e, v, s, record, rays);
+            if constexpr (!F.path_tracer)
+                for (const bool first : {true, false})
+                    if (any(v.connectible & at_first_rough(v, first)))
+                        connect_to_subpaths<F>(e, v, first, s, record, rays);
         }
         if (has_found_all(e, w.index)) return;
         scatter(e, v, w);
@@ -143,11 +182,11 @@ void trace_camera_subpaths(const Estimator& e, const PixelGroup& g, std::uint64_
 template <Facts F, class Record, class GoOn>
 bool estimate_lanes(const Estimator& e, const PixelGroup& g, std::uint64_t pass, EstimatorLanes& s,
                     Record& record, RayCounts& rays, const GoOn& go_on) {
-    s.light_vertices = 0;
+    s.light.count = 0;
     record.begin_group(g, pass);
     if constexpr (!F.path_tracer) {
         if (e.families.needs_light_subpaths()) {
-            auto numbers = paired_subpaths(e, g.x0, g.y, lane_count, pass);
+            auto numbers = paired_subpaths(e, g, pass);
             const auto some_left = [&] {
                 return *std::min_element(numbers.begin(), numbers.end()) < e.light_subpaths;
             };

@@ -195,8 +195,9 @@ double weight_of(const H& h, typename H::Number camera, typename H::Number light
 template <class H>
 double connection(const H& h, const State& camera, Side camera_side, const State& light,
                   Side light_side, double n) {
-    camera_side.pdf_a /= n;
-    light_side.pdf_a /= n;
+    const double share = 1 / n;
+    camera_side.pdf_a *= share;
+    light_side.pdf_a *= share;
     return weight_of(h, side_weight(h, camera, camera_side), side_weight(h, light, light_side));
 }
 

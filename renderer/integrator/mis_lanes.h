@@ -24,31 +24,31 @@ inline Double8 weight_of(const Double8& camera, const Double8& light) {
 struct Step8 {
     Double8 pdf_fwd_a, g_rev, pdf_rev_w;
     Mask8 delta;
-    double n = 1;
+    Double8 n;
 };
 inline State8 advance(const State8& p, const Step8& k) {
     const Double8 zero = all_lanes(0.0);
     const Double8 ratio = square(k.g_rev / k.pdf_fwd_a);
     const Double8 rest = square(k.pdf_rev_w) * p.vc;
-    const Double8 all = all_lanes(square(k.n)) * p.vcm + rest;
+    const Double8 all = square(k.n) * p.vcm + rest;
     return {select(k.delta, zero, square(all_lanes(1.0) / k.pdf_fwd_a)),
             ratio * select(k.delta, rest, all)};
 }
 
 // One side of a connecting edge, eq. (26), (27).
 struct Side8 {
-    Double8 pdf_a, pdf_rev_w;
-    double n = 1;
+    Double8 pdf_a, pdf_rev_w, n;
 };
 inline Double8 side_weight(const State8& s, const Side8& k) {
-    return square(k.pdf_a) * (all_lanes(square(k.n)) * s.vcm + square(k.pdf_rev_w) * s.vc);
+    return square(k.pdf_a) * (square(k.n) * s.vcm + square(k.pdf_rev_w) * s.vc);
 }
 
 // Case 1. `n`: of connections.
 inline Double8 connection(const State8& camera, Side8 camera_side, const State8& light,
                           Side8 light_side, double n) {
-    camera_side.pdf_a = camera_side.pdf_a / all_lanes(n);
-    light_side.pdf_a = light_side.pdf_a / all_lanes(n);
+    const Double8 share = all_lanes(1 / n);
+    camera_side.pdf_a = camera_side.pdf_a * share;
+    light_side.pdf_a = light_side.pdf_a * share;
     return weight_of(side_weight(camera, camera_side), side_weight(light, light_side));
 }
 

@@ -67,11 +67,12 @@ template <Facts F>
 void advance_sums(const Estimator& e, Walk& w, double g_fwd, double g_rev) {
     mis::Step step{w.pdf_fwd_w * g_fwd, g_rev, w.pdf_rev_w, w.delta, 1};
     const Strategy previous = previous_strategy(w.transport, w.index);
+    const bool first = previous_is_first(w.rough, w.index);
     for_each_exponent<F>(e, [&](const auto& h, int i) {
         if constexpr (F.path_tracer) {
             w.vertex.mis[i] = mis::path_tracer::advance(h, step.pdf_fwd_a, step.delta);
         } else {
-            step.n = e.count(previous, i);
+            step.n = e.count(previous, i, first);
             w.vertex.mis[i] = mis::advance(h, w.vertex.mis[i], step);
         }
     });
@@ -89,15 +90,27 @@ SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pas
 }
 
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass) {
-    return paired_subpaths(e, x, y, 1, pass)[0];
+    const PixelGroup g = group_of(e.crop, x, y);
+    return paired_subpaths(e, g, pass)[static_cast<size_t>(g.place_of(x))];
 }
 
-std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, int x, int y, int count,
+PixelGroup group_at(const PixelRect& crop, int n, int y) {
+    const int column = n * group_pixels, run = column / run_pixels * run_pixels;
+    constexpr int step = run_pixels / group_pixels;
+    if (run + run_pixels <= crop.width())
+        return {crop.x0 + run + (column - run) / group_pixels, y, step, group_pixels};
+    return {crop.x0 + column, y, 1, std::min(group_pixels, crop.width() - column)};
+}
+
+std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, const PixelGroup& g,
                                                         std::uint64_t pass) {
     // In the order of the pixels, neighbours and successive passes would meet subpaths from the
     // same strata; a permutation of its own for every pass leaves no pattern.
     e.at(Work::sampling);
-    const std::uint64_t pixel = std::uint64_t(y - e.crop.y0) * e.crop.width() + (x - e.crop.x0);
+    // Pixels are counted as groups have them.
+    const int count = g.count;
+    const std::uint64_t pixel = std::uint64_t(g.y - e.crop.y0) * e.crop.width() +
+                                std::uint64_t(group_number(e.crop, g.x0)) * group_pixels;
     const auto pixels = static_cast<std::uint64_t>(e.crop.area());
     const auto key = [&](std::uint64_t p) { return hash_combine(e.seed, 0x70616972 + p); };
     std::array<std::uint64_t, group_pixels> numbers{};
@@ -125,7 +138,8 @@ std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, int 
 Walk start_camera_walk(const Estimator& e, int x, int y, std::uint64_t pass) {
     Walk w;
     w.transport = Transport::radiance;
-    w.roulette_start = e.roulette_start;
+    w.roulette_start = e.roulette.start;
+    w.roulette_reference = e.roulette.camera_sure;
     e.at(Work::sampling);
     w.key = camera_key(e, x, y, pass);
     const vec4 u = sample_4d(w.key, 0);
@@ -151,7 +165,7 @@ std::optional<Walk> start_light_walk(const Estimator& e, std::uint64_t subpath,
     if (!s) return walk;
     Walk& w = walk.emplace();
     w.transport = Transport::importance;
-    w.roulette_start = e.roulette_start;
+    w.roulette_start = e.roulette.start;
     w.key = key;
     const LightKind kind = e.scene->lights[s->light].kind;
     w.ray.origin = kind == LightKind::area
@@ -204,6 +218,7 @@ Reached extend(const Estimator& e, Walk& w) {
     build_at(v.bsdf,
              [&] { return make_bsdf(material_at(*e.scene, p), e.scene->textures, p.shading); });
     v.index = w.index;
+    v.rough = w.rough;
     v.connectible = v.bsdf.connectible();
     const double cos_in = abs_dot(v.ng, v.to_previous);
     if (!(cos_in > 0)) return Reached::nothing;
@@ -245,6 +260,8 @@ bool scatter(Walk& w) {
     w.pdf_rev_w = s->pdf_rev_w;
     w.cos_previous = abs_dot(v.ng, s->to);
     w.delta = s->delta;
+    const bool from_camera = w.transport == Transport::radiance;
+    if (from_camera && w.rough == 0 && !s->delta) w.rough = w.index;
     return true;
 }
 

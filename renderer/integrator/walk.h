@@ -30,6 +30,18 @@ struct PixelRect {
 enum class Work : std::uint8_t { other, rays, sampling, shading, weights, film };
 inline constexpr size_t work_kinds = 6;
 
+// So many camera samples, of neighbouring pixels, share their light subpaths (light_subpaths.h).
+inline constexpr int group_pixels = 8;
+
+// When walks may end by chance. It stays out of the MIS pdfs: every strategy keeps its own
+// expectation, whatever the survival probability.
+struct Roulette {
+    int start = 4;          // at which bounce
+    float camera_sure = 1;  // throughput at which a camera walk goes on for sure
+
+    bool operator==(const Roulette&) const = default;
+};
+
 // All that an estimator needs to know apart from the sample's number.
 struct Estimator {
     const Scene* scene = nullptr;
@@ -50,6 +62,13 @@ struct Estimator {
     std::uint64_t light_subpaths = 1;
     // n of connections: the share of the camera samples that have a light subpath to connect to.
     double connection_share = 1;
+    // From how many light subpaths a camera walk chooses what its first rough surface is connected
+    // to (light_subpaths.h): so many times n of connections there.
+    int choices = group_pixels;
+    // Contributions are recorded bare, so choices go by them and not by what is weighted.
+    bool bare = false;
+    // Of the exponents, so many decide about choices, by their largest weight; others look on.
+    int deciding_exponents = 1;
     // What counts of light_subpaths where light tracing competes with next event for direct light,
     // paths of two edges: n there is light_subpaths times this. A camera sample's share of a pixel
     // is stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
@@ -61,9 +80,7 @@ struct Estimator {
     // light, 1 or 2 (splitting; Arvo and Kirk 1990, "Particle transport and image synthesis").
     int direct_samples = 1;
 
-    // The bounce from which roulette may end a walk. It stays out of the MIS pdfs: every strategy
-    // keeps its own expectation, whatever the survival probability.
-    int roulette_start = 4;
+    Roulette roulette;
 
     std::atomic<Work>* watch = nullptr;  // where somebody looks
     void at(Work work) const {
@@ -85,12 +102,15 @@ struct Estimator {
     }
 
     bool has(const Strategy& k) const { return families.has(family_of(k)); }
-    // n of a strategy in the weights of an exponent, as mis.h wants it beside a vcm.
-    double count(const Strategy& k, int exponent) const {
+    // n of connections, at the camera walk's first rough surface or elsewhere.
+    double connections(bool first) const { return connection_share * (first ? choices : 1); }
+    // n of a strategy in the weights of an exponent, as mis.h wants it beside a vcm. `first`: its
+    // last camera vertex is the first rough surface.
+    double count(const Strategy& k, int exponent, bool first) const {
         const Family family = family_of(k);
         if (!weighed[exponent].has(family)) return 0;
         if (family == Family::next_event) return next_events(k.edges());
-        return family == Family::connection ? connection_share : 1;
+        return family == Family::connection ? connections(first) : 1;
     }
 };
 
@@ -120,6 +140,7 @@ struct PathVertex {
     Bsdf bsdf;
     std::array<mis::State, max_exponents> mis;
     int index = 0;  // edges walked: 1 for the first surface
+    int rough = 0;  // as in Walk
     bool connectible = false;
 };
 
@@ -174,6 +195,9 @@ struct Walk {
     bool infinite_light = false, hittable_light = true;
 
     int index = 0;  // of the vertex reached last
+    // Of the camera walk's first vertex that did not scatter by a delta lobe; 0: none before the
+    // last. Light subpaths keep 0.
+    int rough = 0;
     std::optional<SurfacePoint> point;
     PathVertex vertex;  // its mis also where the walk left the scene
     VertexNumbers numbers;
@@ -195,17 +219,48 @@ inline Strategy previous_strategy(Transport transport, int index) {
     return transport == Transport::radiance ? Strategy{i, 2} : Strategy{3, i};
 }
 
+// Whether the last camera vertex of that strategy is the walk's first rough one. On the light side
+// it is behind a rough one, the end of the edge that will be connected.
+template <class Int>
+auto previous_is_first(const Int& rough, int index) {
+    return rough == index - 2;
+}
+
 SampleKey camera_key(const Estimator& e, int x, int y, std::uint64_t pass);
 SampleKey light_key(const Estimator& e, std::uint64_t subpath, std::uint64_t pass);
-// So many camera samples, of neighbouring pixels, share their light subpaths (light_subpaths.h).
-inline constexpr int group_pixels = 8;
+// The pixels that share light subpaths: eight of one row, or fewer at its end. They do not stand
+// side by side where a row is long enough, but in a run of 32 every fourth: what their samples have
+// in common would be a streak.
+struct PixelGroup {
+    int x0 = 0, y = 0;
+    int step = 1, count = 0;
+    int size() const { return count; }
+    int x(int place) const { return x0 + step * place; }
+    int place_of(int pixel_x) const { return (pixel_x - x0) / step; }
+};
+inline constexpr int run_pixels = 32;
+
+// Number n of a row's groups, and the one of a pixel.
+PixelGroup group_at(const PixelRect& crop, int n, int y);
+inline int group_number(const PixelRect& crop, int x) {
+    const int column = x - crop.x0, run = column / run_pixels * run_pixels;
+    constexpr int step = run_pixels / group_pixels;
+    const bool whole = run + run_pixels <= crop.width();
+    return run / group_pixels + (whole ? column % step : (column - run) / group_pixels);
+}
+inline PixelGroup group_of(const PixelRect& crop, int x, int y) {
+    return group_at(crop, group_number(crop, x), y);
+}
+inline int group_count(const PixelRect& crop) {
+    return (crop.width() + group_pixels - 1) / group_pixels;
+}
 
 // The light subpath that belongs to the sample of a pixel in a pass. Where this is not below
 // e.light_subpaths, the sample has none; where adding the crop's area (again) is, it has more.
 std::uint64_t paired_subpath(const Estimator& e, int x, int y, std::uint64_t pass);
 
-// The same of `count` pixels of a row, group_pixels at most, of which the first is given.
-std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, int x, int y, int count,
+// The same of the pixels of a group.
+std::array<std::uint64_t, group_pixels> paired_subpaths(const Estimator& e, const PixelGroup& g,
                                                         std::uint64_t pass);
 
 // Calls `use` with the number of every light subpath of a sample, of which `paired` is the first.

@@ -54,32 +54,34 @@ void advance_sums(const Estimator& e, WalkLanes& w, const Double8& g_fwd, const 
     if constexpr (F.path_tracer) {
         w.mis = mis::path_tracer::advance(pdf_fwd_a, w.delta);
     } else {
-        const double n = e.count(previous_strategy(w.transport, w.index), 0);
+        const Double8 n = count_in_lanes(e, previous_strategy(w.transport, w.index),
+                                         previous_is_first(w.rough, w.index));
         w.mis = mis::advance(w.mis, {pdf_fwd_a, g_rev, to_double(w.pdf_rev_w), w.delta, n});
     }
 }
 
 }  // namespace
 
-void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, WalkLanes& w) {
+void start_camera_walks(const Estimator& e, const PixelGroup& g, std::uint64_t pass, WalkLanes& w) {
     w.transport = Transport::radiance;
     w.active = every_lane;
     w.index = 0;
+    w.rough = Mask8{};
     w.infinite_light = no_lane;
     w.delta = no_lane;
     w.throughput = all_lanes(vec3(1));
-    w.roulette_reference = all_lanes(1.0f);
+    w.roulette_reference = all_lanes(e.roulette.camera_sure);
     w.cos_previous = all_lanes(1.0f);
     w.pdf_rev_w = Float8{};
     e.at(Work::sampling);
-    for (int k = 0; k < lane_count; ++k) w.keys[k] = camera_key(e, x0 + k, y, pass);
+    for (int k = 0; k < lane_count; ++k) w.keys[k] = camera_key(e, g.x(k), g.y, pass);
     const std::array<Float8, 4> u = sample_4d_pairs(w.keys, every_lane, 0).first;
     e.at(Work::shading);
-    const Float8 columns = Float8{0, 1, 2, 3, 4, 5, 6, 7} + float(x0);
+    const Float8 columns = Float8{0, 1, 2, 3, 4, 5, 6, 7} * float(g.step) + float(g.x0);
     const std::array<Float8, 2> offset = sample_filters(e.filter, u[0], u[1]);
     w.origin = lens_points(e.camera, every_lane, u[2], u[3]);
     w.direction =
-        camera_directions(e.camera, w.origin, columns + 0.5f + offset[0], (y + 0.5f) + offset[1]);
+        camera_directions(e.camera, w.origin, columns + 0.5f + offset[0], (g.y + 0.5f) + offset[1]);
     w.pdf_fwd_w = camera_pdf_w(e.camera, dot(w.direction, all_lanes(e.camera.forward)));
     w.previous_position = w.origin;
 }
@@ -88,6 +90,7 @@ void start_light_walks(const Estimator& e, const std::array<std::uint64_t, lane_
                        std::uint64_t pass, WalkLanes& w) {
     w.transport = Transport::importance;
     w.index = 0;
+    w.rough = Mask8{};
     w.delta = no_lane;
     w.pdf_fwd_w = w.pdf_rev_w = Float8{};
     e.at(Work::sampling);
@@ -127,6 +130,7 @@ void extend(const Estimator& e, WalkLanes& w, StoredVertex& vertex) {
     e.at(Work::shading);
     VertexLanes& v = vertex.lanes;
     v.index = w.index;
+    v.rough = w.rough;
     v.throughput = w.throughput;
     surfaces_at(*e.scene, w.hits, w.surface, v.surface, vertex.store);
     const Vec3x8 back = w.previous_position - v.surface.position;
@@ -161,7 +165,7 @@ void scatter(const Estimator& e, const VertexLanes& vertex, WalkLanes& w) {
     w.throughput = w.throughput * s.weight;
     // Refraction scales radiance until the path leaves the glass again; survival ignores that.
     w.roulette_reference = w.roulette_reference * s.eta_scale;
-    if (w.index >= e.roulette_start) {
+    if (w.index >= e.roulette.start) {
         const Float8 survival = max_component(w.throughput) / w.roulette_reference;
         const Mask8 risks = survival < 1;
         w.active &= ~(risks & ~(u[3] < survival));
@@ -174,6 +178,8 @@ void scatter(const Estimator& e, const VertexLanes& vertex, WalkLanes& w) {
     w.pdf_rev_w = s.pdf_rev_w;
     w.cos_previous = abs_dot(p.bsdf.ng, s.to);
     w.delta = s.delta;
+    if (w.transport == Transport::radiance)
+        w.rough = (w.rough == 0) & ~s.delta ? Mask8{} + w.index : w.rough;
 }
 
 template void extend<power2_facts>(const Estimator&, WalkLanes&, StoredVertex&);

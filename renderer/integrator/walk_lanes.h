@@ -17,6 +17,7 @@ struct VertexLanes {
     Vec3x8 to_previous, throughput;
     mis::State8 mis;
     int index = 0;
+    Mask8 rough{};  // as in Walk
     Mask8 connectible{};
 };
 
@@ -49,6 +50,7 @@ struct WalkLanes {
     Mask8 infinite_light{}, hittable_light{};
 
     int index = 0;
+    Mask8 rough{};        // as in Walk
     HitLanes hits;        // of the rays traced last
     Mask8 surface{};      // lanes that stand on a surface
     Mask8 sky{};          // lanes whose ray left the scene just now
@@ -56,8 +58,14 @@ struct WalkLanes {
     NumberLanes numbers;  // as VertexNumbers: scatter, connect
 };
 
-// Of the whole group that begins at x0.
-void start_camera_walks(const Estimator& e, int x0, int y, std::uint64_t pass, WalkLanes& w);
+// Estimator::count() of a strategy for the exponent of lanes; `first`: where its last camera vertex
+// is the first rough surface.
+inline Double8 count_in_lanes(const Estimator& e, const Strategy& k, const Mask8& first) {
+    return select(first, all_lanes(e.count(k, 0, true)), all_lanes(e.count(k, 0, false)));
+}
+
+// Of a whole group.
+void start_camera_walks(const Estimator& e, const PixelGroup& g, std::uint64_t pass, WalkLanes& w);
 
 // Lane k walks subpath numbers[k]; lanes whose number is not below e.light_subpaths have none.
 void start_light_walks(const Estimator& e, const std::array<std::uint64_t, lane_count>& numbers,

@@ -26,6 +26,9 @@ struct Double8 {
     friend Double8 operator+(const Double8& a, const Double8& b) {
         return {a.low + b.low, a.high + b.high};
     }
+    friend Double8 operator-(const Double8& a, const Double8& b) {
+        return {a.low - b.low, a.high - b.high};
+    }
     friend Double8 operator*(const Double8& a, const Double8& b) {
         return {a.low * b.low, a.high * b.high};
     }
@@ -67,6 +70,7 @@ void for_each_lane(const Mask8& m, const Use& use) {
 
 inline Float8 select(const Mask8& m, const Float8& yes, const Float8& no) { return m ? yes : no; }
 inline float select(bool m, float yes, float no) { return m ? yes : no; }
+inline double select(bool m, double yes, double no) { return m ? yes : no; }
 
 inline Mask4 lower_half(const Mask8& m) {
     return __builtin_convertvector(__builtin_shufflevector(m, m, 0, 1, 2, 3), Mask4);
@@ -89,13 +93,19 @@ inline Float8 to_float(const Double8& x) {
     return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-// Lanes that are not zero; what is not a number is not.
-inline Mask8 not_zero(const Double8& x) {
+inline Mask8 join(const Mask4& low, const Mask4& high) {
     typedef std::int32_t Mask4i __attribute__((vector_size(16)));
-    const Mask4i low = __builtin_convertvector(x.low != 0.0, Mask4i);
-    const Mask4i high = __builtin_convertvector(x.high != 0.0, Mask4i);
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(__builtin_convertvector(low, Mask4i),
+                                   __builtin_convertvector(high, Mask4i), 0, 1, 2, 3, 4, 5, 6, 7);
 }
+// Lanes that are not zero; what is not a number is not.
+inline Mask8 not_zero(const Double8& x) { return join(x.low != 0.0, x.high != 0.0); }
+inline bool not_zero(double x) { return x != 0; }
+// Smaller, or not to be compared.
+inline Mask8 not_at_least(const Double8& a, const Double8& b) {
+    return join(~(a.low >= b.low), ~(a.high >= b.high));
+}
+inline bool not_at_least(double a, double b) { return !(a >= b); }
 
 inline Float8 abs(const Float8& x) {
     return std::bit_cast<Float8>(std::bit_cast<Mask8>(x) & 0x7fffffff);

@@ -130,11 +130,11 @@ class FilmRecord {
 
     // The same for the samples of a whole group, one in each lane; there is one exponent.
     void begin_group(const PixelGroup& g, std::uint64_t pass) {
-        x0_ = g.x0;
+        pixels_ = g;
         y_ = g.y;
         pass_ = pass;
         group_ = {};
-        for (int x = g.x0; x < g.x1; ++x) prefetch(place_in(targets_.films->front(), x, g.y));
+        for (int k = 0; k < g.size(); ++k) prefetch(place_in(targets_.films->front(), g.x(k), g.y));
     }
     void contributions(const FoundLanes& f, int sample) {
         const PlainValues plain = plain_values(f);
@@ -159,13 +159,13 @@ class FilmRecord {
                 fixed(plain.value[k]);
         });
         for_each_lane(s.found.lanes & ~plain.lanes, [&](int k) {
-            x_ = x0_ + k;
+            x_ = pixels_.x(k);
             splat(s.pixels[k].x, s.pixels[k].y, contribution_of(s.found, k, 0));
         });
     }
     void end_group() {
         for (int k = 0; k < lane_count; ++k)
-            if (group_[k] != FixedRgb{}) add(targets_.films->front(), x0_ + k, y_, group_[k]);
+            if (group_[k] != FixedRgb{}) add(targets_.films->front(), pixels_.x(k), y_, group_[k]);
     }
 
   private:
@@ -198,7 +198,7 @@ class FilmRecord {
     }
 
     void go_to_lane(int lane) {
-        x_ = x0_ + lane;
+        x_ = pixels_.x(lane);
         if constexpr (observed)
             if (targets_.cells) buffer_.move_to(*targets_.cells, x_, y_, sums_.cells_lost);
     }
@@ -301,7 +301,7 @@ class FilmRecord {
     int x_ = 0, y_ = 0;
     std::uint64_t pass_ = 0;
     std::array<FixedRgb, max_exponents> pixel_{};
-    int x0_ = 0;  // of a group
+    PixelGroup pixels_;  // of a group
     std::array<FixedRgb, lane_count> group_{};
     std::array<Waiting, observed ? 48 : 16> waiting_;
     size_t waiting_count_ = 0;

@@ -307,11 +307,11 @@ std::optional<PlanDecision> decide_plan(const Scene& scene, const CameraDescript
         return decision;
     }
     Estimator unconnected = e;
-    unconnected.roulette_start = roulette_start(Families{true, true, true, false});
+    unconnected.roulette = roulette_of(Families{true, true, true, false});
     const std::optional<Run> a = run_pilot(e, candidates, threads, control);
     if (!a) return {};
     // Where the full plan does not connect either, it would be the same run again.
-    const bool same = unconnected.roulette_start == e.roulette_start;
+    const bool same = unconnected.roulette == e.roulette;
     const std::optional<Run> b = same || connections_win(candidates, *a, full)
                                      ? a
                                      : run_pilot(unconnected, candidates, threads, control);

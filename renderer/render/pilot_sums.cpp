@@ -99,9 +99,11 @@ class PilotRecord {
         for (size_t f = 0; f < d.size(); ++f) {
             if (!(d[f] > 0)) continue;
             const int g = group_of(Family(f), c.strategy.edges());
+            // Other families would have found the path without choosing among many.
+            const double bare = Family(f) == Family::connection ? value : value * c.probability;
             for (size_t i = 0; i < scale.size(); ++i) {
                 const double found = energy * d[f] * shares[f][i] * scale[i];
-                const double square = found * value * scale[i];
+                const double square = found * bare * scale[i];
                 b.first[g][i] += found;
                 b.second[g][i] += square;
                 squares[i] += square;
@@ -140,38 +142,52 @@ GatheredVariances variances(const Moments& even, const Moments& odd) {
     return v;
 }
 
-PixelVariances sample_pixel(const Estimator& e, const Grid& grid, int column, int row,
-                            PilotRecord& record, LightSubpaths& light, PilotSums& result) {
+// A place of the samples: a pixel, and passes of its own. (A small crop has the same pixel in many
+// strata.)
+struct PilotPixel {
+    int x = 0, y = 0;
+    std::uint64_t first_pass = 0;
+};
+PilotPixel pilot_pixel(const PixelRect& crop, int column, int row) {
     const std::uint64_t stratum = std::uint64_t(row) * pilot_columns + column;
     const std::uint64_t jitter = hash_combine(pilot_seed, stratum);
     const auto place = [](int i, std::uint32_t random, int strata, int size) {
         const double u = (i + random * 0x1p-32) / strata;
         return std::min(static_cast<int>(u * size), size - 1);
     };
-    const int x = e.crop.x0 + place(column, std::uint32_t(jitter), pilot_columns, e.crop.width());
-    const int y = e.crop.y0 + place(row, std::uint32_t(jitter >> 32), pilot_rows, e.crop.height());
-    std::array<Gathered, 2> halves{};
-    // The samples of a half share their light subpaths, as those of neighbouring pixels do in a
-    // render; the halves share nothing.
-    static_assert(pilot_passes == 2 * group_pixels);
-    for (int half = 0; half < 2; ++half) {
-        // A small crop has the same pixel in many strata: passes of their own for all of them.
-        const std::uint64_t first = pilot_passes * stratum + half;
+    return {crop.x0 + place(column, std::uint32_t(jitter), pilot_columns, crop.width()),
+            crop.y0 + place(row, std::uint32_t(jitter >> 32), pilot_rows, crop.height()),
+            pilot_passes * stratum};
+}
+
+// Eight pixels share their light subpaths, as neighbours do in a render: a pixel meets new ones in
+// each of its passes.
+void sample_pixels(const Estimator& e, const Grid& grid, int column, int row, PilotRecord& record,
+                   LightSubpaths& light, PilotSums& result) {
+    std::array<PilotPixel, group_pixels> pixels;
+    for (int k = 0; k < group_pixels; ++k) pixels[k] = pilot_pixel(e.crop, column + k, row);
+    std::array<std::array<Gathered, 2>, group_pixels> halves{};
+    for (int i = 0; i < pilot_passes; ++i) {
         light.begin(group_pixels);
-        for (int i = 0; i < group_pixels && e.families.needs_light_subpaths(); ++i) {
-            const std::uint64_t pass = first + 2 * i;
-            trace_light_subpaths(e, paired_subpath(e, x, y, pass), pass, i, light, record,
+        for (int k = 0; k < group_pixels && e.families.needs_light_subpaths(); ++k) {
+            const auto [x, y, first] = pixels[k];
+            trace_light_subpaths(e, paired_subpath(e, x, y, first + i), first + i, k, light, record,
                                  result.light);
         }
-        for (int i = 0; i < group_pixels; ++i) {
+        for (int k = 0; k < group_pixels; ++k) {
+            const auto [x, y, first] = pixels[k];
             record.begin(x, y);
-            trace_camera_subpath(e, x, y, first + 2 * i, i, light, record, result.camera);
+            trace_camera_subpath(e, x, y, first + i, k, light, record, result.camera);
             for (int split = 0; split < 2; ++split)
-                add_to(halves[half][split], record.gathered()[split]);
+                add_to(halves[k][i % 2][split], record.gathered()[split]);
         }
     }
-    return {grid.block(x, y),
-            {variances(halves[0][0], halves[1][0]), variances(halves[0][1], halves[1][1])}};
+    for (int k = 0; k < group_pixels; ++k) {
+        PixelVariances& found = result.pixels.emplace_back();
+        found.block = grid.block(pixels[k].x, pixels[k].y);
+        for (int split = 0; split < 2; ++split)
+            found.of[split] = variances(halves[k][0][split], halves[k][1][split]);
+    }
 }
 
 PilotSums sample_chunk(const Estimator& e, const Grid& grid, const Candidates& candidates,
@@ -183,9 +199,9 @@ PilotSums sample_chunk(const Estimator& e, const Grid& grid, const Candidates& c
     PilotRecord record(grid, candidates, result.blocks);
     LightSubpaths light;
     for (int row = chunk * rows_per_chunk; row < (chunk + 1) * rows_per_chunk; ++row)
-        for (int column = 0; column < pilot_columns; ++column) {
+        for (int column = 0; column < pilot_columns; column += group_pixels) {
             if (control && !control->go_on()) return {};
-            result.pixels.push_back(sample_pixel(e, grid, column, row, record, light, result));
+            sample_pixels(e, grid, column, row, record, light, result);
         }
     result.camera.by_strategy = result.light.by_strategy = nullptr;
     return result;
@@ -240,7 +256,9 @@ Estimator pilot_estimator(const Scene& scene, const CameraDescription& camera, R
     s.plan.reset();
     s.exponents.assign(column_count, 1.0);
     s.seed = pilot_seed;
+    s.unweighted = false;
     Estimator e = make_estimator(scene, camera, s);
+    e.deciding_exponents = all + 1;
     e.direct_samples = 2;
     e.weighed[emitter_hits] = e.families & Families{true, false, false, false};
     e.weighed[camera_side].light_tracing = e.weighed[camera_side].connection = false;

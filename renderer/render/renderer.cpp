@@ -113,8 +113,10 @@ bool ProgressiveRenderer::work(Batch& batch, WorkerSums& sums) const {
     };
     const auto render_block = [&](const PixelRect& r, std::uint64_t pass) {
         for (int y = r.y0; y < r.y1; ++y)
-            for (int x = r.x0; x < r.x1; x += group_pixels)
-                if (!render_group(group_of(tiles.crop, x, y), pass)) return false;
+            for (int x = r.x0; x < r.x1; x += group_pixels) {
+                const int n = (x - tiles.crop.x0) / group_pixels;
+                if (!render_group(group_at(tiles.crop, n, y), pass)) return false;
+            }
         return true;
     };
     // Where thumbnails are gathered, the samples of one of their pixels nearly follow each other.

@@ -54,8 +54,7 @@ FilterKind parse_filter(std::string_view text);
 // The families that a technique stands for.
 Families families_of(Technique t);
 
-// The bounce from which roulette may end a walk.
-int roulette_start(const Families& families);
+Roulette roulette_of(const Families& families);
 
 // Estimator::direct_share. Next event that always asks the same lamp knows its samples' values
 // beforehand but for shadows, and stratification does the rest; where it asks one of many, each

@@ -18,8 +18,8 @@ long double log_of(double x) {
 }  // namespace
 
 PathSetting path_setting(const Estimator& e) {
-    return {e.families,     double(e.light_subpaths), e.max_bounces,
-            e.direct_share, e.connection_share,       e.direct_samples};
+    return {e.families,         double(e.light_subpaths), e.max_bounces, e.direct_share,
+            e.connection_share, e.direct_samples,         e.choices};
 }
 
 double light_tracing_count(const PathSetting& s, int edges) {
@@ -27,6 +27,15 @@ double light_tracing_count(const PathSetting& s, int edges) {
 }
 
 int next_event_count(const PathSetting& s, int edges) { return edges == 2 ? s.direct_samples : 1; }
+
+double connection_count(const PathSetting& s, bool first) {
+    return s.connection_share * (first ? s.choices : 1);
+}
+
+bool is_first_rough(const PathPdfs& p, int i) {
+    return std::all_of(p.vertices.begin() + 1, p.vertices.begin() + i,
+                       [](const VertexPdfs& v) { return v.delta; });
+}
 
 bool is_feasible(const PathPdfs& p, const Strategy& k, const PathSetting& setting) {
     const int last = p.edges();
@@ -51,7 +60,7 @@ long double log_density(const PathPdfs& p, const Strategy& k, const PathSetting&
     const int last = p.edges();
     long double sum = 0;
     if (k.s == 1) sum = log_of(light_tracing_count(setting, last));
-    if (k.s >= 2 && k.t >= 2) sum = log_of(setting.connection_share);
+    if (k.s >= 2 && k.t >= 2) sum = log_of(connection_count(setting, is_first_rough(p, k.s - 1)));
     for (int i = 1; i < k.s; ++i)
         sum += log_of(p.vertices[i].camera_w) + log_of(p.vertices[i].camera_g);
     for (int i = k.s; i < last; ++i)

@@ -43,12 +43,18 @@ struct PathSetting {
     int max_bounces = 1000;
     double direct_share = 1, connection_share = 1;  // as in Estimator
     int direct_samples = 1;
+    int choices = 1;
 };
 PathSetting path_setting(const Estimator& estimator);
 
 // n of eq. (22) for light tracing, and for next event.
 double light_tracing_count(const PathSetting& setting, int edges);
 int next_event_count(const PathSetting& setting, int edges);
+// The same for a connection whose last camera vertex is the first rough surface, or is not.
+double connection_count(const PathSetting& setting, bool first);
+
+// Whether no vertex between the lens and vertex i is rough: all scatter by delta lobes.
+bool is_first_rough(const PathPdfs& path, int i);
 
 // Can this strategy make the path at all? (2,0) and (1,1) are no strategies of weighted paths.
 bool is_feasible(const PathPdfs& path, const Strategy& strategy, const PathSetting& setting);

@@ -187,30 +187,47 @@ void visit_next_event(const Estimator& e, const RecordedWalk& camera, const vec4
     visit(p);
 }
 
-void visit_connections(const Estimator& e, const DrawnSample& sample, const Visit& visit) {
+// Vertex j of the light subpath at a place of the group; null where nothing can be connected to.
+const PathVertex* light_vertex(const DrawnSample& sample, int from, int j) {
+    const std::optional<RecordedWalk>& light = sample.lights[static_cast<size_t>(from)];
+    if (!light || static_cast<size_t>(j) >= light->vertices.size()) return nullptr;
+    const PathVertex& l = light->vertices[static_cast<size_t>(j)];
+    return l.connectible ? &l : nullptr;
+}
+
+void visit_connection(const Estimator& e, const DrawnSample& sample, const ConnectionChoice& choice,
+                      const Visit& visit) {
     const RecordedWalk& camera = sample.camera;
     const PathVertex& v = camera.now.vertex;
+    RayCounts rays;
+    const std::optional<Contribution> c = connect(e, v, choice, rays);
+    if (!c) return;
+    const RecordedWalk& light = *sample.lights[static_cast<size_t>(choice.place)];
+    const PathVertex& l = *choice.light;
+    DrawnPath p = join(camera, v.index, &light, l.index, end_of(light), camera.start.ray.origin);
+    p.contribution = *c;
+    add_camera_pdfs(p, camera, v.index - 1);
+    add_light_pdfs(p, light, l.index - 1);
+    add_camera_end(p, v.index);
+    add_light_end(p, v.index + 1);
+    p.met = choice.place;
+    visit(p);
+}
+
+void visit_connections(const Estimator& e, const DrawnSample& sample, const Visit& visit) {
+    const Walk& camera = sample.camera.now;
     const int group = static_cast<int>(sample.lights.size());
-    for (int j = 1; group > 0 && v.index + j <= e.max_bounces; ++j) {
-        const auto from = static_cast<size_t>(partner(sample.place, v.index, j, group));
-        if (!sample.lights[from]) continue;
-        const RecordedWalk& light = *sample.lights[from];
-        if (static_cast<size_t>(j) >= light.vertices.size()) continue;
-        const PathVertex& l = light.vertices[static_cast<size_t>(j)];
-        if (!l.connectible) continue;
-        RayCounts rays;
-        const std::optional<Contribution> c = connect(e, v, l, rays);
-        if (!c) continue;
-        DrawnPath p =
-            join(camera, v.index, &light, l.index, end_of(light), camera.start.ray.origin);
-        p.contribution = *c;
-        add_camera_pdfs(p, camera, v.index - 1);
-        add_light_pdfs(p, light, l.index - 1);
-        add_camera_end(p, v.index);
-        add_light_end(p, v.index + 1);
-        p.met = static_cast<int>(from);
-        visit(p);
-    }
+    if (group == 0) return;
+    const auto vertex = [&](int from, int j) { return light_vertex(sample, from, j); };
+    size_t longest = 0;
+    for (const std::optional<RecordedWalk>& l : sample.lights)
+        if (l) longest = std::max(longest, l->vertices.size() - 1);
+    const int last = std::min(static_cast<int>(longest), e.max_bounces - camera.index);
+    for_each_choice(camera.vertex.rough == 0, last, [&](int j, int end) {
+        const ConnectionChoice choice =
+            choose_connection(e, camera, sample.place, group, j, end, vertex);
+        if (choice.light) visit_connection(e, sample, choice, visit);
+    });
 }
 
 // Without `visit` nothing is splatted.
@@ -275,12 +292,12 @@ void hit_again(const Estimator& e, const DrawnPath& path, PathPdfs& own) {
 DrawnSample draw_paths(const Estimator& e, int x, int y, std::uint64_t pass, const Visit& found) {
     const PixelGroup g = group_of(e.crop, x, y);
     DrawnSample sample;
-    sample.place = x - g.x0;
+    sample.place = g.place_of(x);
     sample.lights.resize(static_cast<size_t>(g.size()));
     // Of each camera sample's light subpaths the first is met; further ones are splatted alone.
     for (int place = 0; place < g.size() && e.families.needs_light_subpaths(); ++place) {
         const bool own = place == sample.place;
-        const std::uint64_t paired = paired_subpath(e, g.x0 + place, y, pass);
+        const std::uint64_t paired = paired_subpath(e, g.x(place), y, pass);
         for_each_subpath(e, paired, [&](std::uint64_t subpath) {
             if (!own && subpath != paired) return;
             auto light = record_light(e, subpath, pass, own ? found : Visit{});

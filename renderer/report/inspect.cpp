@@ -181,13 +181,13 @@ std::vector<InspectedVertex> light_subpath(const Inspection& in, const RecordedW
 // `met`: by path, whose light subpath it meets, as DrawnPath::met.
 void add_neighbours(const Inspection& in, const DrawnSample& drawn, const std::vector<int>& met,
                     InspectedSample& s) {
-    const int first = s.x - drawn.place;
+    const PixelGroup group = group_of(in.e.crop, s.x, s.y);
     for (int place = 0; place < static_cast<int>(drawn.lights.size()); ++place) {
         if (place == drawn.place || std::ranges::find(met, place) == met.end()) continue;
         for (size_t i = 0; i < met.size(); ++i)
             if (met[i] == place) s.paths[i].neighbour = s.neighbours.size();
-        s.neighbours.push_back({first + place, s.y,
-                                paired_subpath(in.e, first + place, s.y, s.pass),
+        s.neighbours.push_back({group.x(place), s.y,
+                                paired_subpath(in.e, group.x(place), s.y, s.pass),
                                 light_subpath(in, *drawn.lights[static_cast<size_t>(place)])});
     }
 }

@@ -7,11 +7,12 @@ bool has(const PathSetting& setting, const Strategy& k) {
     return setting.families.has(family_of(k));
 }
 
-// n as mis.h wants it beside a vcm.
-double count(const PathSetting& setting, const Strategy& k) {
+// n as mis.h wants it beside a vcm. `first`: the strategy's last camera vertex is the first rough
+// surface.
+double count(const PathSetting& setting, const Strategy& k, bool first) {
     if (!has(setting, k)) return 0;
     if (k.t == 1) return next_event_count(setting, k.edges());
-    return k.s >= 2 && k.t >= 2 ? setting.connection_share : 1;
+    return k.s >= 2 && k.t >= 2 ? connection_count(setting, first) : 1;
 }
 
 // Sums at the vertices of the camera's subpath; element i belongs to vertex i.
@@ -21,10 +22,10 @@ std::vector<mis::State> camera_states(const H& h, const PathPdfs& p, const PathS
     std::vector<mis::State> states(last + 1);
     states[1] = mis::start_camera(h, setting.light_subpaths, p.from_camera(1));
     for (int i = 2; i <= last; ++i)
-        states[i] =
-            mis::advance(h, states[i - 1],
-                         {p.from_camera(i), p.vertices[i - 1].light_g, p.vertices[i - 2].light_w,
-                          p.vertices[i - 1].delta, count(setting, {i - 1, 2})});
+        states[i] = mis::advance(h, states[i - 1],
+                                 {p.from_camera(i), p.vertices[i - 1].light_g,
+                                  p.vertices[i - 2].light_w, p.vertices[i - 1].delta,
+                                  count(setting, {i - 1, 2}, i > 2 && is_first_rough(p, i - 2))});
     return states;
 }
 
@@ -45,7 +46,7 @@ std::vector<mis::State> light_states(const H& h, const PathPdfs& p, const PathSe
         states[j] =
             mis::advance(h, states[j - 1],
                          {p.from_light(i), p.vertices[i + 1].camera_g, p.vertices[i + 2].camera_w,
-                          p.vertices[i + 1].delta, count(setting, {3, j - 1})});
+                          p.vertices[i + 1].delta, count(setting, {3, j - 1}, false)});
     }
     return states;
 }
@@ -68,17 +69,18 @@ double weigh(const H& h, const PathPdfs& c, const PathPdfs& l, const PathSetting
     if (s == 1)
         return mis::light_tracing(
             h, from_light[k.t - 1],
-            {towards_light, l.vertices[2].camera_w, count(setting, {2, k.t - 1})}, tracing);
-    const mis::Side camera_side{towards_camera * share, c.vertices[s - 2].light_w,
-                                count(setting, {s - 1, k.t + 1})};
+            {towards_light, l.vertices[2].camera_w, count(setting, {2, k.t - 1}, true)}, tracing);
+    const mis::Side camera_side{
+        towards_camera * share, c.vertices[s - 2].light_w,
+        count(setting, {s - 1, k.t + 1}, s > 2 && is_first_rough(c, s - 2))};
     if (k.t == 1)
         return mis::next_event(
             h, camera, camera_side,
             {next_event, c.emission, towards_light, c.hittable && setting.families.emitter_hit});
     const mis::Side light_side{towards_light, l.vertices[s + 1].camera_w,
-                               count(setting, {s + 1, k.t - 1})};
+                               count(setting, {s + 1, k.t - 1}, false)};
     return mis::connection(h, camera, camera_side, from_light[k.t - 1], light_side,
-                           setting.connection_share);
+                           connection_count(setting, is_first_rough(c, s - 1)));
 }
 
 // A strategy that has no density at the path never asks for its weight.

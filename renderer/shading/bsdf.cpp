@@ -174,7 +174,7 @@ BsdfEval eval_bsdf(const Bsdf& b, const vec3& from, const vec3& to, Transport tr
     if (!reflects && !b.has_glass()) return {};
     const lobes::PairSums s =
         b.only_diffuse ? lobes::sum_diffuse(b, o, i) : lobes::sum_lobes(b, o, i, go > 0, reflects);
-    const vec3 f = s.value / std::abs(gi);
+    const vec3 f = s.value * (1.0f / std::abs(gi));
     return radiance ? BsdfEval{f, s.pdf_light, s.pdf_camera}
                     : BsdfEval{f, s.pdf_camera, s.pdf_light};
 }

@@ -22,13 +22,45 @@ using BsdfStore = std::array<Bsdf, lane_count>;
 // Where two directions chosen by somebody else can have f > 0.
 Mask8 connectible(const BsdfLanes& b);
 
-// As eval_bsdf(), for the lanes that are wanted.
+// As may_scatter() of bsdf.h.
+void let_others_scatter(const BsdfLanes& b, Mask8& may);
+inline Mask8 may_scatter(const BsdfLanes& b, const Vec3x8& from, const Vec3x8& to) {
+    Mask8 m = dot(from, b.ng) * dot(to, b.ng) > 0;
+    if (any(b.others)) let_others_scatter(b, m);
+    return m;
+}
+
+// As eval_bsdf().
 struct BsdfEval8 {
     Vec3x8 f;
     Float8 pdf_fwd_w, pdf_rev_w;
 };
-BsdfEval8 eval_bsdfs(const BsdfLanes& b, const Mask8& wanted, const Vec3x8& from, const Vec3x8& to,
-                     Transport transport);
+
+// Of Lambert's lobe, in every lane.
+inline BsdfEval8 eval_lambert(const BsdfLanes& b, const Vec3x8& from, const Vec3x8& to,
+                              Transport transport) {
+    const bool radiance = transport == Transport::radiance;
+    const Vec3x8& o = radiance ? from : to;
+    const Vec3x8& i = radiance ? to : from;
+    const Float8 go = dot(o, b.ng), gi = dot(i, b.ng);
+    const Mask8 reflects = (go * gi > 0) & ~is_black(b.diffuse);
+    const Float8 mu_o = abs_dot(b.normal, o), mu_i = abs_dot(b.normal, i), zero{};
+    const Vec3x8 f = b.diffuse * (inv_pi * mu_i) * (1.0f / abs(gi));
+    const Float8 pdf_light = select(reflects, mu_i * inv_pi, zero);
+    const Float8 pdf_camera = select(reflects, mu_o * inv_pi, zero);
+    return {select(reflects, f, Vec3x8{}), radiance ? pdf_light : pdf_camera,
+            radiance ? pdf_camera : pdf_light};
+}
+
+// In the lanes that are wanted.
+void eval_others(const BsdfLanes& b, const Mask8& wanted, const Vec3x8& from, const Vec3x8& to,
+                 Transport transport, BsdfEval8& e);
+inline BsdfEval8 eval_bsdfs(const BsdfLanes& b, const Mask8& wanted, const Vec3x8& from,
+                            const Vec3x8& to, Transport transport) {
+    BsdfEval8 e = eval_lambert(b, from, to, transport);
+    if (any(wanted & b.others)) eval_others(b, wanted, from, to, transport, e);
+    return e;
+}
 
 // As sample_bsdf().
 struct BsdfSample8 {

@@ -106,8 +106,8 @@ Outcome render_always(const AgreementScene& a, const RenderSettings& settings) {
         const auto go_on = [] { return true; };
         for (std::uint64_t pass = 0; pass < passes; ++pass)
             for (int y = e.crop.y0; y < e.crop.y1; ++y)
-                for (int x = e.crop.x0; x < e.crop.x1; x += group_pixels)
-                    estimate<no_facts>(e, group_of(e.crop, x, y), pass, light, record, sums.rays,
+                for (int n = 0; n < group_count(e.crop); ++n)
+                    estimate<no_facts>(e, group_at(e.crop, n, y), pass, light, record, sums.rays,
                                        go_on);
     }
     Outcome o{{}, sums.rays.closest, sums.rays.shadow, sums.nonfinite.count};

@@ -220,7 +220,9 @@ TEST(Lanes, WeightsAreThoseOfTheRecursion) {
         const Double8 a = densities(draw), b = densities(draw), c = densities(draw),
                       d = densities(draw), e = densities(draw);
         const Mask8 some = draw.mask();
-        const double n = round % 3 == 0 ? 0 : round % 3 == 1 ? 1 : 0.25;
+        Double8 n{};
+        for (int k = 0; k < lane_count; ++k)
+            n.set(k, std::array{0.0, 1.0, 0.25, 8.0}[(round + k) % 4]);
         const mis::State8 s{a, b}, t{c, d};
         const mis::State8 next = mis::advance(s, {c, d, e, some, n});
         const mis::State8 path = mis::path_tracer::advance(c, some);
@@ -233,11 +235,11 @@ TEST(Lanes, WeightsAreThoseOfTheRecursion) {
         for (int k = 0; k < lane_count; ++k) {
             const bool yes = some[k] != 0;
             const mis::State one{a[k], b[k]}, other{c[k], d[k]};
-            const mis::Side its{d[k], e[k], n};
+            const mis::Side its{d[k], e[k], n[k]};
             const mis::NextEventPdfs of_one{c[k], d[k], e[k], yes};
-            expect_state(next, k, mis::advance(h, one, {c[k], d[k], e[k], yes, n}));
+            expect_state(next, k, mis::advance(h, one, {c[k], d[k], e[k], yes, n[k]}));
             expect_state(path, k, mis::path_tracer::advance(h, c[k], yes));
-            EXPECT_EQ(connected[k], mis::connection(h, one, its, other, {e[k], a[k], n}, 0.5));
+            EXPECT_EQ(connected[k], mis::connection(h, one, its, other, {e[k], a[k], n[k]}, 0.5));
             EXPECT_EQ(asked[k], mis::next_event(h, one, its, of_one));
             EXPECT_EQ(alone[k], mis::path_tracer::next_event(h, of_one));
             EXPECT_EQ(splatted[k], mis::light_tracing(h, one, its, 7));

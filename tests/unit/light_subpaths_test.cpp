@@ -1,7 +1,6 @@
 // Who shares light subpaths with whom.
 #include <gtest/gtest.h>
 
-#include <map>
 #include <set>
 
 #include "report/drawn_path.h"
@@ -11,15 +10,26 @@
 namespace midway::test {
 namespace {
 
+// Every pixel is in one group, at one place, and those that share stand apart where there is room.
 TEST(LightSubpaths, GroupsCoverTheCrop) {
-    for (const int width : {1, 7, 8, 9, 21}) {
+    for (const int width : {1, 7, 8, 9, 31, 32, 33, 75, 96}) {
         const PixelRect crop{5, 2, 5 + width, 4};
-        for (int x = crop.x0; x < crop.x1; ++x) {
-            const PixelGroup g = group_of(crop, x, 3);
-            EXPECT_TRUE(g.x0 <= x && x < g.x1 && g.x1 <= crop.x1 && g.y == 3);
-            EXPECT_EQ(0, (g.x0 - crop.x0) % group_pixels);
-            EXPECT_EQ(std::min(group_pixels, crop.x1 - g.x0), g.size());
+        std::vector<int> seen(static_cast<size_t>(width), 0);
+        for (int n = 0; n < group_count(crop); ++n) {
+            const PixelGroup g = group_at(crop, n, 3);
+            EXPECT_EQ(3, g.y);
+            EXPECT_EQ(std::min(group_pixels, width - n * group_pixels), g.size());
+            EXPECT_EQ((n / 4 + 1) * 32 <= width ? 4 : 1, g.step);
+            for (int k = 0; k < g.size(); ++k) {
+                ++seen.at(static_cast<size_t>(g.x(k) - crop.x0));
+                const PixelGroup own = group_of(crop, g.x(k), 3);
+                EXPECT_EQ(g.x0, own.x0);
+                EXPECT_EQ(g.size(), own.size());
+                EXPECT_EQ(k, own.place_of(g.x(k)));
+                EXPECT_EQ(n, group_number(crop, g.x(k)));
+            }
         }
+        EXPECT_EQ(std::vector<int>(seen.size(), 1), seen) << width;
     }
 }
 
@@ -45,6 +55,41 @@ TEST(LightSubpaths, EachVertexIsMetOnceForEveryCameraVertex) {
         EXPECT_EQ(static_cast<size_t>(group_pixels), along_light.size());
         EXPECT_EQ(static_cast<size_t>(group_pixels), along_camera.size());
     }
+}
+
+// Each light vertex that a camera vertex may meet is in one of its choices.
+TEST(LightSubpaths, ChoicesShareTheLightVertices) {
+    for (const bool first : {true, false})
+        for (int last = 0; last <= 12; ++last) {
+            std::vector<int> met;
+            int choices = 0;
+            for_each_choice(first, last, [&](int j, int end) {
+                ++choices;
+                EXPECT_LE(j, end);
+                for (; j <= end; ++j) met.push_back(j);
+            });
+            ASSERT_EQ(static_cast<size_t>(last), met.size());
+            for (int j = 1; j <= last; ++j) EXPECT_EQ(j, met[static_cast<size_t>(j) - 1]);
+            EXPECT_EQ(last == 0 ? 0 : first && last > 1 ? 2 : 1, choices);
+        }
+}
+
+TEST(LightSubpaths, TheFirstRoughSurfaceMeetsThoseOfAllNeighbours) {
+    PathVertex v;
+    v.index = 3;
+    for (int count = 1; count <= group_pixels; ++count)
+        for (const int rough : {0, 1, 2}) {
+            v.rough = rough;
+            std::vector<int> met;
+            for_each_partner(v, 0, 2, count, [&](int from) { met.push_back(from); });
+            if (rough > 0) {
+                EXPECT_EQ(std::vector<int>{partner(0, 3, 2, count)}, met);
+                continue;
+            }
+            ASSERT_EQ(static_cast<size_t>(count), met.size());
+            for (int from = 0; from < count; ++from)
+                EXPECT_EQ(from, met[static_cast<size_t>(from)]);
+        }
 }
 
 TEST(LightSubpaths, VerticesAreFoundByTheirNumber) {
@@ -78,16 +123,24 @@ Estimator estimator_of_crop(const Scene& scene, int width, int height) {
 
 TEST(LightSubpaths, EveryPixelHasOneAndNeighboursHaveNeighbours) {
     const auto scene = build(floor_and_lamp());
-    for (const auto& [width, height] : {std::pair{16, 16}, {21, 5}, {5, 3}, {8, 1}, {1, 1}}) {
+    for (const auto& [width, height] :
+         {std::pair{16, 16}, {32, 8}, {21, 5}, {5, 3}, {8, 1}, {1, 1}}) {
         const Estimator e = estimator_of_crop(*scene, width, height);
         for (std::uint64_t pass = 0; pass < 20; ++pass) {
-            std::vector<std::uint64_t> first(static_cast<size_t>(width * height));
-            std::set<std::uint64_t> all;
-            for (int i = 0; i < width * height; ++i) {
-                first[i] = paired_subpath(e, 2 + i % width, 3 + i / width, pass);
-                all.insert(first[i]);
-                EXPECT_EQ(first[i] / 8, first[i - i % 8] / 8);
-            }
+            std::vector<std::uint64_t> first;  // in the order of the groups
+            for (int y = 3; y < 3 + height; ++y)
+                for (int n = 0; n < group_count(e.crop); ++n) {
+                    const PixelGroup g = group_at(e.crop, n, y);
+                    const auto paired = paired_subpaths(e, g, pass);
+                    for (int k = 0; k < g.size(); ++k) {
+                        EXPECT_EQ(paired[static_cast<size_t>(k)],
+                                  paired_subpath(e, g.x(k), y, pass));
+                        first.push_back(paired[static_cast<size_t>(k)]);
+                    }
+                }
+            for (size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i] / 8, first[i - i % 8] / 8);
+            const std::set<std::uint64_t> all(first.begin(), first.end());
+            ASSERT_EQ(static_cast<size_t>(width * height), first.size());
             EXPECT_EQ(first.size(), all.size());
             EXPECT_EQ(first.size() - 1, *all.rbegin());
         }
@@ -112,34 +165,31 @@ TEST(LightSubpaths, APixelHasEachOfThemAsOften) {
     }
 }
 
-// In a box with one lamp every light subpath starts at a point of its own, so that the points tell
-// which connections of a sample hang on the same one.
-TEST(LightSubpaths, ConnectionsOfASampleDoNotHangOnOne) {
+// In a box with one lamp. A camera vertex's connections are those of its choices; from the first
+// surface they go to every neighbour's light subpath, from others to the one whose turn it is.
+TEST(LightSubpaths, ASampleConnectsToThoseItMayChoose) {
     SceneDescription d = floor_and_lamp();
     add(d, make_quad({-2, 0, -2}, {4, 0, 0}, {0, 3, 0}, 4), lambert(vec3(0.8f)));
     add(d, make_quad({-2, 0, 2}, {0, 0, -4}, {0, 3, 0}, 4), lambert(vec3(0.8f)));
     add(d, make_quad({2, 0, -2}, {0, 0, 4}, {0, 3, 0}, 4), lambert(vec3(0.8f)));
     const auto scene = build(d);
     const Estimator e = make_estimator(*scene, eye(), settings(Technique::bdpt, 16, 4));
-    int pairs = 0, connections = 0;
+    std::array<int, 8> from_first{};  // by how far the neighbour is
+    int behind = 0;
     for (int i = 0; i < 1024; ++i) {
         const int x = i % 16, y = i / 16 % 16;
-        std::map<int, vec3> start;  // by place
-        std::map<std::pair<int, int>, int> met;
+        std::set<std::pair<int, bool>> made;
         draw_paths(e, x, y, static_cast<std::uint64_t>(i / 256), [&](const DrawnPath& p) {
             const Strategy k = p.contribution.strategy;
             if (family_of(k) != Family::connection) return;
-            ++connections;
-            const int place = (x + (k.s - 2) + 3 * (k.t - 2)) % 8;
-            const auto [found, first] = start.emplace(place, p.light);
-            EXPECT_EQ(found->second, p.light);
-            EXPECT_TRUE(met.emplace(std::pair{k.s, k.t}, place).second) << "met twice";
+            EXPECT_TRUE(made.emplace(k.s, k.s == 2 && k.t > 2).second) << k.s << ", " << k.t;
+            if (k.s == 2) return void(++from_first.at(static_cast<size_t>((p.met - x) & 7)));
+            ++behind;
+            EXPECT_EQ((x + (k.s - 2) + 3 * (k.t - 2)) % 8, p.met);
         });
-        for (auto a = start.begin(); a != start.end(); ++a)
-            for (auto b = start.begin(); b != a; ++b, ++pairs) EXPECT_NE(a->second, b->second);
     }
-    EXPECT_GT(connections, 200);
-    EXPECT_GT(pairs, 40);
+    for (const int count : from_first) EXPECT_GT(count, 50);
+    EXPECT_GT(behind, 50);
 }
 
 }  // namespace

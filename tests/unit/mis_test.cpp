@@ -77,6 +77,7 @@ TEST(MisRecursion, EqualsTheDirectFormForMadeUpDensities) {
         setting.light_subpaths = i % 5 ? std::pow(10.0, double(random() % 7)) : 1;
         setting.direct_share = i % 4 ? std::pow(10.0, -0.5 * double(random() % 4)) : 1;
         setting.connection_share = i % 3 ? std::pow(0.5, double(random() % 4)) : 1;
+        setting.choices = i % 2 ? 8 : 1 + int(random() % 50);
         ASSERT_NO_FATAL_FAILURE(expect_same(make_up(random, m), setting)) << "path " << i;
     }
 }
@@ -114,10 +115,13 @@ TEST(MisRecursion, TellsNextEventsDensityFromEmissions) {
     }
 }
 
-// Every density the same: the weights are the shares of the sample counts.
-void expect_shares(const PathSetting& setting, const std::vector<double>& counts) {
+// Every density the same: the weights are the shares of the sample counts. Vertices first_delta ..
+// last_delta scatter by delta lobes.
+void expect_shares(const PathSetting& setting, const std::vector<double>& counts,
+                   int last_delta = 0, int first_delta = 1) {
     PathPdfs p;
     p.vertices.resize(counts.size());
+    for (int i = first_delta; i <= last_delta; ++i) p.vertices[static_cast<size_t>(i)].delta = true;
     const std::vector<double> w = recursive_weights(p, p, setting, 1);
     ASSERT_EQ(counts.size(), w.size());
     for (size_t i = 0; i < w.size(); ++i)
@@ -135,6 +139,19 @@ TEST(MisRecursion, CountsTheSamplesThatConnect) {
     PathSetting setting;
     setting.connection_share = 0.25;
     expect_shares(setting, {1, 0.25, 0.25, 1, 1});
+}
+
+// The first rough surface has them many times over.
+TEST(MisRecursion, CountsWhatTheFirstRoughSurfaceChoosesFrom) {
+    PathSetting setting;
+    setting.connection_share = 0.5;
+    setting.choices = 8;
+    expect_shares(setting, {1, 4, 0.5, 0.5, 1, 1});
+    // Seen in a mirror: light tracing cannot make the path, and nothing connects at the mirror.
+    expect_shares(setting, {0, 0, 4, 0.5, 1, 1}, 1);
+    expect_shares(setting, {0, 0, 0, 4, 1, 1}, 2);
+    // A mirror behind the first rough surface.
+    expect_shares(setting, {1, 0, 0, 0.5, 0.5, 1, 1}, 2, 2);
 }
 
 // Of direct light alone.
