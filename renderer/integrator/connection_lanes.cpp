@@ -87,10 +87,8 @@ void offer_connections(const Estimator& e, const VertexLanes& v, const VertexLan
     const mis::Side8 light{to_double(fv.pdf_fwd_w) * g_l, to_double(fl.pdf_rev_w),
                            all_lanes(e.count({strategy.s + 1, strategy.t - 1}, 0, false))};
     const Double8 weight = mis::connection(v.mis, camera, l.mis, light, e.connections(first));
-    const Double8 one = all_lanes(1.0), zero = all_lanes(0.0);
-    const Double8 deciding = e.bare ? select(not_zero(weight), one, zero) : weight;
-    const Mask8 takes =
-        choosing.among.offer(select(lanes, importance_of(value, deciding), zero)) & lanes;
+    const Double8 importance = importance_of(value, weight);
+    const Mask8 takes = choosing.among.offer(select(lanes, importance, all_lanes(0.0))) & lanes;
     FoundLanes& f = choosing.chosen.found;
     f.lanes |= takes;
     f.t = takes ? Mask8{} + strategy.t : f.t;

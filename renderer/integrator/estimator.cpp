@@ -51,17 +51,6 @@ mis::Side towards_light(const Estimator& e, const Strategy& k, int exponent, mis
     return side;
 }
 
-// By which of its weights a contribution counts when one is chosen.
-template <Facts F>
-double deciding_weight(const Estimator& e, const Contribution& c) {
-    if (e.bare) return no_weight<F>(e, c) ? 0 : 1;
-    double largest = c.weights[0];
-    if constexpr (!F.one_power2)
-        for (int i = 1; i < e.deciding_exponents; ++i)
-            if (!(c.weights[i] <= largest)) largest = c.weights[i];
-    return largest;
-}
-
 }  // namespace
 
 template <Facts F>
@@ -167,7 +156,7 @@ void offer_connection(const Estimator& e, const PathVertex& v, const PathVertex&
         return mis::connection(h, v.mis[i], towards_camera(e, v, c.strategy, i, camera), l.mis[i],
                                towards_light(e, c.strategy, i, light), n);
     });
-    if (!choice.among.offer(importance_of(c.value, deciding_weight<F>(e, c)))) return;
+    if (!choice.among.offer(importance_of(c.value, c.weights[e.deciding]))) return;
     choice.contribution = c;
     choice.light = &l;
     choice.place = place;
@@ -179,8 +168,8 @@ std::optional<Contribution> connect(const Estimator& e, const PathVertex& v,
     const double factor = choice.among.factor();
     found->value *= static_cast<float>(factor);
     found->probability = 1 / factor;
-    if (!arrives(e, *found, rays, [&] { return edge_visibility(*e.scene, v, *choice.light); }))
-        found.reset();
+    const auto seen = [&] { return edge_visibility(*e.scene, v, *choice.light); };
+    if (is_nothing<no_facts>(e, *found) || !arrives(e, *found, rays, seen)) found.reset();
     return found;
 }
 

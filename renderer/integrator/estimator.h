@@ -26,7 +26,7 @@ namespace midway {
 struct Contribution {
     Strategy strategy;
     vec3 value{0};
-    std::array<double, max_exponents> weights;
+    std::array<double, max_weights> weights;
     int sample = 0;          // of a vertex that asks for light more than once, which
     double probability = 1;  // of having been chosen among others, which the value makes up for
 };

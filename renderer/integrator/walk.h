@@ -17,6 +17,8 @@ namespace midway {
 
 // How many exponents one set of paths can be weighed with at once.
 inline constexpr int max_exponents = 8;
+// And so many weights there are, with the one that decides about choices.
+inline constexpr int max_weights = max_exponents + 1;
 
 struct PixelRect {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // x1, y1 excluded
@@ -50,11 +52,11 @@ struct Estimator {
     PixelRect crop;
     Families families;
     bool direct_lamps = true;  // (2,0) is shown, also where emitter hits are not a family in use
-    std::array<double, max_exponents> exponents{2};
+    std::array<double, max_weights> exponents{2};
     int exponent_count = 1;
     // The families that the weights of each exponent count: those in use, but for a pilot that asks
     // how others would have weighed the same paths (render/pilot_sums.h).
-    std::array<Families, max_exponents> weighed;
+    std::array<Families, max_weights> weighed;
     int max_bounces = 16;
     std::uint64_t seed = 0;
     SamplerKind sampler = SamplerKind::sobol;
@@ -65,10 +67,10 @@ struct Estimator {
     // From how many light subpaths a camera walk chooses what its first rough surface is connected
     // to (light_subpaths.h): so many times n of connections there.
     int choices = group_pixels;
-    // Contributions are recorded bare, so choices go by them and not by what is weighted.
-    bool bare = false;
-    // Of the exponents, so many decide about choices, by their largest weight; others look on.
-    int deciding_exponents = 1;
+    // Which of the weights decides about choices: always that of exponent 2, lest the paths of an
+    // image depend on what it is weighed with. Where nobody asked for it, it is kept behind the
+    // others.
+    int deciding = 0;
     // What counts of light_subpaths where light tracing competes with next event for direct light,
     // paths of two edges: n there is light_subpaths times this. A camera sample's share of a pixel
     // is stratified, a splat falls by chance, and densities alone do not tell (Grittmann, Georgiev,
@@ -119,13 +121,13 @@ int exponent_count(const Estimator& e) {
     return F.one_power2 ? 1 : e.exponent_count;
 }
 
-// Calls `use` with the heuristic of each exponent, and its number.
+// Calls `use` with the heuristic of each exponent, and its number; also of the one that decides.
 template <Facts F, class Use>
 void for_each_exponent(const Estimator& e, const Use& use) {
     if constexpr (F.one_power2) {
         use(mis::Power2<>{}, 0);
     } else {
-        for (int i = 0; i < e.exponent_count; ++i)
+        for (int i = 0; i < std::max(e.exponent_count, e.deciding + 1); ++i)
             mis::with_heuristic(e.exponents[i], [&](const auto& h) { use(h, i); });
     }
 }
@@ -138,7 +140,7 @@ struct PathVertex {
     vec3 to_previous{0, 0, 1};  // unit
     vec3 throughput{0};         // of the subpath up to here, this vertex's scattering excluded
     Bsdf bsdf;
-    std::array<mis::State, max_exponents> mis;
+    std::array<mis::State, max_weights> mis;
     int index = 0;  // edges walked: 1 for the first surface
     int rough = 0;  // as in Walk
     bool connectible = false;

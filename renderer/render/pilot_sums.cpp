@@ -256,9 +256,7 @@ Estimator pilot_estimator(const Scene& scene, const CameraDescription& camera, R
     s.plan.reset();
     s.exponents.assign(column_count, 1.0);
     s.seed = pilot_seed;
-    s.unweighted = false;
     Estimator e = make_estimator(scene, camera, s);
-    e.deciding_exponents = all + 1;
     e.direct_samples = 2;
     e.weighed[emitter_hits] = e.families & Families{true, false, false, false};
     e.weighed[camera_side].light_tracing = e.weighed[camera_side].connection = false;

@@ -132,8 +132,12 @@ Estimator make_estimator(const Scene& scene, const CameraDescription& camera,
     e.direct_lamps = s.technique == Technique::light;
     e.exponent_count = static_cast<int>(s.exponents.size());
     std::copy(s.exponents.begin(), s.exponents.end(), e.exponents.begin());
-    e.deciding_exponents = e.exponent_count;
-    e.bare = s.unweighted;
+    if (e.families.connection) {
+        const auto end = e.exponents.begin() + e.exponent_count;
+        e.deciding =
+            static_cast<int>(std::find(e.exponents.begin(), end, 2.0) - e.exponents.begin());
+        e.exponents[static_cast<size_t>(e.deciding)] = 2;
+    }
     e.max_bounces = s.max_bounces;
     e.seed = s.seed;
     e.sampler = s.sampler;
