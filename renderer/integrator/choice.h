@@ -35,8 +35,8 @@ struct Choice {
     Number factor() const { return total / drawn; }
 };
 
-// A candidate's importance: what it would add to the image, in units of 2^-300, lest the small
-// weights of large exponents leave double's range in dim scenes.
+// A candidate's importance: what it would add to the image, in units of 2^-300, lest small
+// weights in dim scenes leave double's range.
 inline double importance_of(const vec3& value, double weight) {
     return (double(value.x) + double(value.y) + double(value.z)) * (weight * 0x1p300);
 }

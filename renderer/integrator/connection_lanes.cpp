@@ -4,7 +4,7 @@
 namespace midway {
 namespace {
 
-// One lane's in all lanes.
+// One lane's in all lanes. Who asks knows already which lanes can be connected.
 BsdfLanes spread(const BsdfLanes& b, int lane) {
     BsdfLanes r;
     r.ng = all_lanes(b.ng[lane]);
@@ -23,7 +23,6 @@ VertexLanes spread(const VertexLanes& v, int lane) {
     r.throughput = all_lanes(v.throughput[lane]);
     r.mis = {all_lanes(v.mis.vcm[lane]), all_lanes(v.mis.vc[lane])};
     r.index = v.index;
-    r.connectible = every_lane;
     return r;
 }
 
@@ -47,7 +46,6 @@ VertexLanes rotated(const VertexLanes& v, int shift) {
     r.throughput = rotate(v.throughput, from);
     r.mis = {rotate(v.mis.vcm, from), rotate(v.mis.vc, from)};
     r.index = v.index;
-    r.connectible = rotate(v.connectible, from);
     return r;
 }
 
